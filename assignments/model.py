@@ -1,0 +1,177 @@
+"""The words of assignments: what is asked, one student's variant of it, and its answer key."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from vml_course.model.arrays import Axes, FloatArray, IntArray, set_frozen
+
+
+@dataclass(frozen=True)
+class Draw:
+    """How one scene parameter is drawn: a value from `low` to `high` on a grid of `step`, SI units."""
+
+    parameter: str
+    low: float
+    high: float
+    step: float
+
+
+@dataclass(frozen=True)
+class Given:
+    """A number that the student is told: label, symbol, unit; `parameter` names where its value comes from.
+
+    `factor` converts the scene's value, such as 2 from a radius to a diameter.
+    """
+
+    id: str
+    label: str
+    symbol: str
+    unit: str
+    parameter: str
+    factor: float = 1.0
+
+
+@dataclass(frozen=True)
+class Question:
+    """A number that the student measures or computes, in one named cell of the workbook.
+
+    Attributes
+    ----------
+    id : str
+        Name of the workbook cell, such as `v_b2`.
+    label, symbol : str
+        What the student reads.
+    dimension : str
+        `length`, `velocity`, `angular_velocity`, `inertia`, `number`, `rate`, `scale` ...; decides the accepted units.
+    unit : str
+        The SI unit in which truth and tolerance are kept.
+    points : float
+    check : str
+        Name of the check that judges it.
+    tolerance : float
+        Relative tolerance of full credit.
+    group : str
+        `calibration`, `measurement` or `conclusion`.
+    needs : tuple of str
+        Questions from whose answers this one can be recomputed.
+    """
+
+    id: str
+    label: str
+    symbol: str
+    dimension: str
+    unit: str
+    points: float
+    check: str
+    tolerance: float
+    group: str
+    needs: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Assignment:
+    """One folder of the catalogue, read and checked."""
+
+    id: str
+    title: str
+    summary: str
+    scene: str
+    model: str
+    fixed: Mapping[str, float]
+    camera: Mapping[str, float]
+    recording: Mapping[str, float | str]
+    draws: tuple[Draw, ...]
+    givens: tuple[Given, ...]
+    questions: tuple[Question, ...]
+    points: tuple[str, ...]
+    handout_template: str
+    folder: str
+
+    def question(self, question_id: str) -> Question:
+        """Return a question by its id (KeyError when there is none: ids were checked on loading)."""
+        return {question.id: question for question in self.questions}[question_id]
+
+
+@dataclass(frozen=True)
+class Variant:
+    """One student's own version: frozen numbers, nothing to recompute.
+
+    Attributes
+    ----------
+    assignment_id, student : str
+        The student's pseudonym; names live in the roster table only.
+    code : str
+        Unguessable code that the workbook carries.
+    parameters : mapping of str to float
+        The scene's parameters, SI units.
+    camera, recording : mapping
+    seed : int
+        For texture and noise.
+    redraws : int
+        How many draws were rejected before this one.
+    generator_version : str
+    """
+
+    assignment_id: str
+    student: str
+    code: str
+    parameters: Mapping[str, float]
+    camera: Mapping[str, float]
+    recording: Mapping[str, float | str]
+    seed: int
+    redraws: int
+    generator_version: str
+
+
+@dataclass(frozen=True, eq=False)
+class AnswerKey:
+    """What is true of one variant; kept in the instructor's gradebook, never handed out.
+
+    Attributes
+    ----------
+    assignment_id, student, code : str
+    values : mapping of str to float
+        True value of each question by id, SI units.
+    expected_sd : mapping of str to float
+        One standard deviation that the reference tracker and solver reached on the very video handed out.
+    measured : mapping of str to float
+        What they measured.
+    given : mapping of str to float
+        The numbers that the student was told, by symbol (`m`, `L`, `D` ...), SI units.
+    truth : mapping of str to float
+        Further true numbers that mistakes are computed from: `px_per_m`, `fps`, `R`, `theta_impact_rad` ...
+    video_sha256 : str
+    versions : mapping of str to str
+    points : tuple of str
+    frame : int array, shape (n,)
+    time_s : float array, shape (n,)
+    xy_px : float array, shape (n, p, 2)
+        The true trajectory.
+    """
+
+    assignment_id: str
+    student: str
+    code: str
+    values: Mapping[str, float]
+    expected_sd: Mapping[str, float]
+    measured: Mapping[str, float]
+    given: Mapping[str, float]
+    truth: Mapping[str, float]
+    video_sha256: str
+    versions: Mapping[str, str]
+    points: tuple[str, ...]
+    frame: IntArray
+    time_s: FloatArray
+    xy_px: FloatArray
+    parameters: Mapping[str, float] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        axes = Axes()
+        set_frozen(
+            self,
+            frame=axes.freeze("frame", self.frame, "n", dtype="int64"),
+            time_s=axes.freeze("time_s", self.time_s, "n"),
+            xy_px=axes.freeze("xy_px", self.xy_px, "n", len(self.points), 2),
+        )

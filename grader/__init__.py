@@ -1,0 +1,1 @@
+"""Reading, judging and explaining what students hand in."""

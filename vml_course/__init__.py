@@ -1,0 +1,1 @@
+"""The Virtual Mechanics Laboratory: simulate, render, track and solve an impact."""

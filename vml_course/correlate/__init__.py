@@ -1,0 +1,1 @@
+"""Kernels of digital image correlation: arrays in, arrays out."""

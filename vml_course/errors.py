@@ -1,0 +1,126 @@
+"""What a user can do wrong: one class each, one line each.
+
+Every message reads *name: expected what, got value.* and, where it helps, what to do. Errors carry the
+facts as attributes, so that a page or a JSON form can show them without parsing words.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+
+class VmlError(Exception):
+    """Something the user can put right; `vml` prints it as one line and ends with exit code 2."""
+
+
+class InputError(VmlError):
+    """A value is not what was asked for.
+
+    Parameters
+    ----------
+    name : str
+        What the user called it: an option, a cell, a column, a file.
+    expected : str
+        What would have been right, with unit and range.
+    got : object
+        What was found.
+    hint : str
+        What to do about it (optional).
+    """
+
+    def __init__(self, name: str, expected: str, got: object, hint: str = "") -> None:
+        self.name, self.expected, self.got, self.hint = name, expected, got, hint
+        tail = f" {hint}" if hint else ""
+        super().__init__(" ".join(f"{name}: expected {expected}, got {got}.{tail}".split()))
+
+
+# ---------------------------------------------------------------- words and numbers
+
+
+class ShapeError(InputError):
+    """An array does not have the axes its record declares."""
+
+
+class OutOfRangeError(InputError):
+    """A quantity lies outside its declared range."""
+
+    def __init__(self, name: str, low: float, high: float, unit: str, got: float) -> None:
+        self.low, self.high, self.unit = low, high, unit
+        unit_text = f" {unit}" if unit else ""
+        super().__init__(name, f"{low:g} to {high:g}{unit_text}", f"{got:g}{unit_text}")
+
+
+class UnknownNameError(InputError):
+    """A name is not among those known (a scene, a tracker, a parameter, a point)."""
+
+    def __init__(self, name: str, got: str, known: Iterable[str]) -> None:
+        self.known = tuple(known)
+        super().__init__(name, f"one of {', '.join(self.known) or '(none)'}", repr(got))
+
+
+class NumberError(InputError):
+    """A text is not a number."""
+
+
+class AmbiguousNumberError(NumberError):
+    """A text can be read as two different numbers, such as `1,234`."""
+
+
+class UnitError(InputError):
+    """A unit is missing, unknown, or of another dimension."""
+
+
+# ---------------------------------------------------------------- files
+
+
+class FileMissingError(InputError):
+    """A file that was named does not exist."""
+
+
+class FileFormatError(InputError):
+    """A file's ending names no format that we write or read."""
+
+
+class VideoError(InputError):
+    """A file is empty, truncated or not a video."""
+
+
+class FrameRangeError(InputError):
+    """A frame number lies outside the video, or a clip's end before its start."""
+
+
+class TableError(InputError):
+    """A table lacks a column that is needed, or holds text where numbers belong."""
+
+
+# ---------------------------------------------------------------- simulation
+
+
+class SceneRefusedError(VmlError):
+    """A simulated impact is not what its parameters promise; it is not handed out."""
+
+    def __init__(self, scene: str, failed: Iterable[str]) -> None:
+        self.scene, self.failed = scene, tuple(failed)
+        super().__init__(f"{scene}: expected an honest impact, got failed checks: {'; '.join(self.failed)}.")
+
+
+# ---------------------------------------------------------------- tracking
+
+
+class SeedError(InputError):
+    """A point to track lies outside the picture or on a patch that cannot be followed."""
+
+
+# ---------------------------------------------------------------- kinetics
+
+
+class MissingScaleError(InputError):
+    """Metres are asked of a measurement that has pixels only."""
+
+
+class TooFewFramesError(InputError):
+    """One side of the impact has too few frames for a velocity."""
+
+
+class NoImpactError(InputError):
+    """The struck body never changes its velocity."""

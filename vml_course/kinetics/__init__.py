@@ -1,0 +1,1 @@
+"""From tracked points to velocities, forces, restitution and inertia."""

@@ -1,0 +1,1 @@
+"""The words every room speaks: frozen records of read-only arrays."""

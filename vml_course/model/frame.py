@@ -1,0 +1,52 @@
+"""One picture of a video: its number, its time, its luma plane."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Luma = NDArray[np.uint8]
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Frame:
+    """A decoded picture; `luma` is the plane as the file holds it, without colour conversion.
+
+    Attributes
+    ----------
+    index : int
+        Number of the picture in the source file, in the order of presentation, from 0.
+    time_s : float
+        Its own time stamp in the file, in seconds.
+    luma : uint8 array, shape (height, width)
+    """
+
+    index: int
+    time_s: float
+    luma: Luma
+
+
+@dataclass(frozen=True, slots=True)
+class VideoInfo:
+    """What a video file is; counts are decoded facts, not header claims.
+
+    Attributes
+    ----------
+    frame_count : int
+        Pictures that can really be shown.
+    fps : float
+        Pictures per second by the file's time stamps (mean, when the rate varies).
+    is_variable_rate : bool
+        Whether the time stamps are unevenly spaced beyond the container's rounding.
+    codec, container : str
+    """
+
+    width_px: int
+    height_px: int
+    frame_count: int
+    fps: float
+    is_variable_rate: bool
+    codec: str
+    container: str

@@ -1,0 +1,169 @@
+"""What really happened in a simulated clip: the yardstick of every measurement."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from vml_course.errors import UnknownNameError
+from vml_course.model.arrays import Axes, FloatArray, set_frozen
+from vml_course.model.camera import Camera
+
+
+@dataclass(frozen=True, slots=True)
+class Check:
+    """One honesty check of a simulation: `value` must not exceed `limit`."""
+
+    name: str
+    value: float
+    limit: float
+
+    @property
+    def passed(self) -> bool:
+        """Whether the value keeps its limit; NaN does not."""
+        return bool(self.value <= self.limit)
+
+
+@dataclass(frozen=True, eq=False)
+class ImpactTruth:
+    """The impact as it was realised, from the states around the first contact step.
+
+    Signs: x right, y up, angular velocity counter-clockwise. The normal points from the striker to the
+    struck body; `arm_m` is the signed lever arm of that normal about the pivot, so that a point of the
+    striker at the contact approaches along the normal with `arm_m * omega`.
+
+    Attributes
+    ----------
+    time_s : float
+        Time of the impact on the clip's clock.
+    frame_before : int
+        Last frame that shows the state before the impact.
+    contact_m, normal : float array, shape (2,)
+    arm_m : float
+    impulse_N_s : float
+        Contact impulse along the normal, on the struck body.
+    restitution, inertia_kg_m2 : float
+        Realised, from the states before and after.
+    restitution_by_impulse, inertia_by_impulse_kg_m2 : float
+        Realised, from the impulse and the states.
+    restitution_nominal, inertia_nominal_kg_m2 : float
+        What the scene's parameters say.
+    omega_before_rad_s, omega_after_rad_s : float
+        Angular velocity of the striker.
+    struck_before_m_s, struck_after_m_s : float array, shape (2,)
+        Velocity of the struck body's centre.
+    struck_mass_kg : float
+    """
+
+    time_s: float
+    frame_before: int
+    contact_m: FloatArray
+    normal: FloatArray
+    arm_m: float
+    impulse_N_s: float  # noqa: N815 - the unit is newton second
+    restitution: float
+    inertia_kg_m2: float
+    restitution_by_impulse: float
+    inertia_by_impulse_kg_m2: float
+    restitution_nominal: float
+    inertia_nominal_kg_m2: float
+    omega_before_rad_s: float
+    omega_after_rad_s: float
+    struck_before_m_s: FloatArray
+    struck_after_m_s: FloatArray
+    struck_mass_kg: float
+
+    def __post_init__(self) -> None:
+        axes = Axes()
+        for name in ("contact_m", "normal", "struck_before_m_s", "struck_after_m_s"):
+            set_frozen(self, **{name: axes.freeze(name, getattr(self, name), 2)})
+
+
+@dataclass(frozen=True, eq=False)
+class Truth:
+    """Everything known of a simulated clip, exact to the simulation.
+
+    Attributes
+    ----------
+    scene : str
+        Name of the scene.
+    parameters : mapping of str to float
+        The scene's parameters, SI units.
+    camera : Camera
+    time_s : float array, shape (n,)
+        Time of each frame's mid-exposure; the first frame is at 0.
+    bodies : tuple of str
+    pose : float array, shape (n, b, 3)
+        x in m, y in m (y up), angle in rad (counter-clockwise), of each body in each frame.
+    points : tuple of str
+        The tracked points.
+    xy_m : float array, shape (n, p, 2)
+        Their positions, metres, y up.
+    leg_angle_rad : float array, shape (n,)
+        Angle of the striker's vector (pivot to striking point) from +x, unwrapped.
+    marks_m : mapping of str to (float, float)
+        Still points to calibrate with, such as both ends of the scale bar.
+    impact : ImpactTruth
+    checks : tuple of Check
+    versions : mapping of str to str
+    model : str
+        Name of the impact model in `kinetics` that solves this scene.
+    given : mapping of str to float
+        What the solver is told, by symbol, SI units (`m`, `L`, ...).
+    seed : int
+    """
+
+    scene: str
+    parameters: Mapping[str, float]
+    camera: Camera
+    time_s: FloatArray
+    bodies: tuple[str, ...]
+    pose: FloatArray
+    points: tuple[str, ...]
+    xy_m: FloatArray
+    leg_angle_rad: FloatArray
+    marks_m: Mapping[str, tuple[float, float]]
+    impact: ImpactTruth
+    checks: tuple[Check, ...]
+    versions: Mapping[str, str]
+    model: str
+    given: Mapping[str, float]
+    seed: int
+
+    def __post_init__(self) -> None:
+        axes = Axes()
+        set_frozen(
+            self,
+            time_s=axes.freeze("time_s", self.time_s, "n"),
+            pose=axes.freeze("pose", self.pose, "n", len(self.bodies), 3),
+            xy_m=axes.freeze("xy_m", self.xy_m, "n", len(self.points), 2),
+            leg_angle_rad=axes.freeze("leg_angle_rad", self.leg_angle_rad, "n"),
+        )
+
+    @property
+    def xy_px(self) -> FloatArray:
+        """Where the tracked points are seen: shape (n, p, 2), pixels, y down."""
+        return self.camera.to_px(self.xy_m)
+
+    def point_index(self, name: str) -> int:
+        """Return the column of a tracked point.
+
+        Raises
+        ------
+        UnknownNameError
+        """
+        if name not in self.points:
+            raise UnknownNameError("point", name, self.points)
+        return self.points.index(name)
+
+    def point_px(self, name: str, frame: int = 0) -> tuple[float, float]:
+        """Return where a tracked point is seen in one frame, in pixels."""
+        x, y = self.xy_px[frame, self.point_index(name)]
+        return float(x), float(y)
+
+    @property
+    def leg_angle_deg(self) -> FloatArray:
+        """The striker's angle in degrees, unwrapped, y up."""
+        return np.degrees(self.leg_angle_rad)

@@ -1,0 +1,1 @@
+"""Known scenes: physics by pymunk, pictures by numpy and OpenCV."""

@@ -1,0 +1,1 @@
+"""One file a scene; a file that is here is a scene that exists."""

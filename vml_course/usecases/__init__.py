@@ -1,0 +1,1 @@
+"""One file a verb: the hallway where the rooms meet."""
