@@ -28,6 +28,22 @@ class Frame:
     luma: Luma
 
 
+@dataclass(frozen=True, eq=False, slots=True)
+class Picture:
+    """A picture in the planes that encoders want: full-range (0 to 255) Y'CbCr, 4:2:0.
+
+    Attributes
+    ----------
+    luma : uint8 array, shape (height, width)
+    blue, red : uint8 array, shape (height / 2, width / 2)
+        Colour differences Cb and Cr; 128 is grey.
+    """
+
+    luma: Luma
+    blue: Luma
+    red: Luma
+
+
 @dataclass(frozen=True, slots=True)
 class VideoInfo:
     """What a video file is; counts are decoded facts, not header claims.

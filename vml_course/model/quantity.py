@@ -23,6 +23,7 @@ class Quantity:
     low: float
     high: float
     about: str
+    symbol: str
     whole: bool
 
     @property
@@ -31,7 +32,9 @@ class Quantity:
         return f"{self.low:g} to {self.high:g} {self.unit}".rstrip()
 
 
-def quantity(default: float, unit: str, low: float, high: float, *, about: str = "", whole: bool = False) -> Any:
+def quantity(
+    default: float, unit: str, low: float, high: float, *, about: str = "", symbol: str = "", whole: bool = False
+) -> Any:
     """Declare a dataclass field that is a physical quantity.
 
     Parameters
@@ -42,13 +45,13 @@ def quantity(default: float, unit: str, low: float, high: float, *, about: str =
         SI unit as it is written in text, "" for a pure number.
     about : str
         One phrase that a student understands.
+    symbol : str
+        The textbook's letter, which `--set` and `-g` accept beside the field's name.
     whole : bool
         Whether only whole numbers are allowed.
     """
-    return field(
-        default=default,
-        metadata={"quantity": {"unit": unit, "low": low, "high": high, "about": about, "whole": whole}},
-    )
+    declared = {"unit": unit, "low": low, "high": high, "about": about, "symbol": symbol, "whole": whole}
+    return field(default=default, metadata={"quantity": declared})
 
 
 def quantities_of(record: Any) -> dict[str, Quantity]:
