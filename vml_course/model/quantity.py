@@ -32,7 +32,7 @@ class Quantity:
         return f"{self.low:g} to {self.high:g} {self.unit}".rstrip()
 
 
-def quantity(
+def quantity(  # noqa: PLR0913 - one declaration says it all
     default: float, unit: str, low: float, high: float, *, about: str = "", symbol: str = "", whole: bool = False
 ) -> Any:
     """Declare a dataclass field that is a physical quantity.
