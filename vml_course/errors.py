@@ -70,6 +70,13 @@ class UnitError(InputError):
     """A unit is missing, unknown, or of another dimension."""
 
 
+class UncalibratedUnitError(UnitError):
+    """A value is in pixels where metres are meant: it cannot be compared before there is a scale."""
+
+    def __init__(self, name: str, accepted: str, got: str) -> None:
+        super().__init__(name, f"a calibrated unit ({accepted})", got, "Set the scale first, then convert pixels.")
+
+
 # ---------------------------------------------------------------- files
 
 
