@@ -10,19 +10,62 @@ from vml_course.model.arrays import Axes, FloatArray, IntArray, set_frozen
 
 @dataclass(frozen=True)
 class Draw:
-    """How one scene parameter is drawn: a value from `low` to `high` on a grid of `step`, SI units."""
+    """How one number is drawn: a value from `low` to `high` on a grid of `step`, SI units.
+
+    `parameter` is a parameter of the scene, or a name of its own that a `Derived` parameter is computed
+    from. `avoid` holds closed intervals that no value is taken from.
+    """
 
     parameter: str
     low: float
     high: float
     step: float
+    avoid: tuple[tuple[float, float], ...] = ()
+
+
+@dataclass(frozen=True)
+class Derived:
+    """A scene parameter that is computed from drawn numbers by a named formula of `assignments.derive`.
+
+    `inputs` says which number each argument of the formula takes.
+    """
+
+    parameter: str
+    formula: str
+    inputs: Mapping[str, str]
+
+
+@dataclass(frozen=True)
+class Separation:
+    """Which wrong answers must lie apart, so that a wrong number names its mistake.
+
+    Attributes
+    ----------
+    mistakes : tuple of str
+        Codes of `assignments.mistakes`.
+    apart : float
+        Smallest relative distance between any two of their values.
+    """
+
+    mistakes: tuple[str, ...] = ()
+    apart: float = 0.0
+
+
+@dataclass(frozen=True)
+class Stick:
+    """The known length to calibrate with: two marks of the scene and the given number that is their distance."""
+
+    tail: str
+    head: str
+    given: str
 
 
 @dataclass(frozen=True)
 class Given:
     """A number that the student is told: label, symbol, unit; `parameter` names where its value comes from.
 
-    `factor` converts the scene's value, such as 2 from a radius to a diameter.
+    `parameter` is a parameter of the scene or `camera.<field>`; `factor` converts it, such as 2 from a
+    radius to a diameter. A number that is the same for everybody has `value` and no parameter.
     """
 
     id: str
@@ -31,6 +74,7 @@ class Given:
     unit: str
     parameter: str
     factor: float = 1.0
+    value: float | None = None
 
 
 @dataclass(frozen=True)
@@ -56,6 +100,10 @@ class Question:
         `calibration`, `measurement` or `conclusion`.
     needs : tuple of str
         Questions from whose answers this one can be recomputed.
+    floor : float
+        Absolute tolerance in `unit`, for a truth at or near zero: the larger of it and the relative one holds.
+    hint : str
+        One short sentence beside the cell.
     """
 
     id: str
@@ -68,11 +116,29 @@ class Question:
     tolerance: float
     group: str
     needs: tuple[str, ...] = ()
+    floor: float = 0.0
+    hint: str = ""
 
 
 @dataclass(frozen=True)
 class Assignment:
-    """One folder of the catalogue, read and checked."""
+    """One folder of the catalogue, read and checked.
+
+    Attributes
+    ----------
+    fixed : mapping of str to float
+        Scene parameters that are the same for every student.
+    camera, recording : mapping
+        What differs from the scene's own camera and from the default recording.
+    draws, derived, limits
+        How the other parameters come about; a draw outside `limits` (low, high) is drawn again.
+    points : tuple of str
+        The points to track.
+    handout_template : str
+        File name in `folder`.
+    version : str
+        Of the assignment's text and numbers; it goes into every workbook.
+    """
 
     id: str
     title: str
@@ -88,6 +154,21 @@ class Assignment:
     points: tuple[str, ...]
     handout_template: str
     folder: str
+    version: str = "1"
+    derived: tuple[Derived, ...] = ()
+    limits: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    separation: Separation = Separation()
+    stick: Stick | None = None
+
+    @property
+    def total_points(self) -> float:
+        """Points of all questions together."""
+        return sum(question.points for question in self.questions)
+
+    def question_groups(self) -> dict[str, tuple[Question, ...]]:
+        """Return the questions by group, in the order in which they are asked."""
+        groups = dict.fromkeys(question.group for question in self.questions)
+        return {group: tuple(q for q in self.questions if q.group == group) for group in groups}
 
     def question(self, question_id: str) -> Question:
         """Return a question by its id (KeyError when there is none: ids were checked on loading)."""
@@ -112,6 +193,8 @@ class Variant:
     redraws : int
         How many draws were rejected before this one.
     generator_version : str
+    signature : str
+        The course's signature of `code`: shows that a workbook was handed out by this course.
     """
 
     assignment_id: str
@@ -123,6 +206,7 @@ class Variant:
     seed: int
     redraws: int
     generator_version: str
+    signature: str = ""
 
 
 @dataclass(frozen=True, eq=False)
