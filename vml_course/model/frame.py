@@ -57,6 +57,8 @@ class VideoInfo:
     is_variable_rate : bool
         Whether the time stamps are unevenly spaced beyond the container's rounding.
     codec, container : str
+    damage : str
+        What is wrong with the file though it can be read in part; "" when nothing is.
     """
 
     width_px: int
@@ -66,3 +68,4 @@ class VideoInfo:
     is_variable_rate: bool
     codec: str
     container: str
+    damage: str = ""

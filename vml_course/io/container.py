@@ -1,0 +1,66 @@
+"""A video file opened, its errors in plain words."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import av
+from av.container import InputContainer
+from av.video.stream import VideoStream
+
+from vml_course.errors import VideoError
+from vml_course.io.files import existing
+
+# Containers we promise to read; play lists and scripts, which open further files, are not among them.
+FORMATS = "mov,mp4,m4a,3gp,3g2,mj2,matroska,webm,avi,mpegts,mpeg,asf,flv,ogg,gif,mxf,dv,nut,mjpeg,h264,hevc"
+EXPECTED = "a video that can be decoded"
+
+
+@contextmanager
+def open_video(path: Path) -> Iterator[tuple[InputContainer, VideoStream]]:
+    """Open the first video stream of a file; decoder errors inside the block become `VideoError`.
+
+    Raises
+    ------
+    FileMissingError
+    VideoError
+        When the file is empty, cut off before its index, or no video.
+    """
+    if existing(path).stat().st_size == 0:
+        raise VideoError(path.name, EXPECTED, "an empty file (0 bytes)")
+    options = {"format_whitelist": FORMATS, "protocol_whitelist": "file"}
+    try:
+        with av.open(f"file:{path}", options=options) as container:
+            if not container.streams.video:
+                raise VideoError(path.name, EXPECTED, "a file without pictures")
+            stream = container.streams.video[0]
+            stream.thread_type = "AUTO"
+            yield container, stream
+    except av.FFmpegError as error:
+        raise VideoError(path.name, EXPECTED, *_explain(path, error)) from error
+
+
+def _explain(path: Path, error: av.FFmpegError) -> tuple[str, str]:
+    head = path.open("rb").read(12)
+    if head[4:8] == b"ftyp" and not _has_box(path, b"moov"):
+        return "a cut-off file (its index, the moov atom, is missing)", "Copy it again from the camera."
+    if isinstance(error, av.DecoderNotFoundError):
+        return "a codec that cannot be decoded", "Convert it to H.264."
+    return "something else or a damaged file", "Is it really a video?"
+
+
+def _has_box(path: Path, name: bytes) -> bool:
+    """Whether an MP4 file has a top-level box of that name."""
+    size, place = path.stat().st_size, 0
+    with path.open("rb") as file:
+        while place + 8 <= size:
+            file.seek(place)
+            head = file.read(16)
+            if head[4:8] == name:
+                return True
+            length = int.from_bytes(head[:4], "big")
+            length = int.from_bytes(head[8:16], "big") if length == 1 else length
+            place += length if length >= 8 else size
+    return False

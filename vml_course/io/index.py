@@ -1,0 +1,134 @@
+"""The list of a file's pictures, in the order of presentation.
+
+It comes from demuxing, never from the header: headers count pictures that an edit list hides, or say
+nothing. Files store pictures in decoding order, so their time stamps are sorted.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import pairwise
+from pathlib import Path
+
+import av
+import numpy as np
+from av.container import InputContainer
+from av.video.stream import VideoStream
+
+from vml_course.errors import VideoError
+from vml_course.io.container import EXPECTED, open_video
+from vml_course.io.planes import upright_shape
+from vml_course.io.timing import rate_of
+from vml_course.model.arrays import IntArray
+from vml_course.model.frame import VideoInfo
+
+# Only in these does a seek land where the stamps say; elsewhere we decode from the start.
+SEEKABLE = ("mp4", "matroska", "avi")
+CUT_OFF = "the file ends early"
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class PictureIndex:
+    """Every picture of a file.
+
+    Attributes
+    ----------
+    path : Path
+    pts : int array, shape (n,)
+        Time stamps in units of `time_base`, rising; where the file has none, the pictures' numbers.
+    keys : int array, shape (k,)
+        Numbers of the pictures at which decoding can start.
+    time_base : Fraction
+    may_seek : bool
+        Whether a stamp names one picture and a seek can find it.
+    rate : Fraction
+        Pictures per second, not rounded; the mean when it varies.
+    info : VideoInfo
+    """
+
+    path: Path
+    pts: IntArray
+    keys: IntArray
+    time_base: Fraction
+    may_seek: bool
+    rate: Fraction
+    info: VideoInfo
+
+    def time_s(self, number: int) -> float:
+        """Return the time stamp of a picture in seconds."""
+        return float(int(self.pts[number]) * self.time_base)
+
+
+def index_video(path: Path) -> PictureIndex:
+    """List the pictures of a video.
+
+    Raises
+    ------
+    FileMissingError
+    VideoError
+        When the file is empty, cut off before its index, no video, or has no picture that can be decoded.
+    """
+    with open_video(path) as (container, stream):
+        codec, kind = stream.codec_context.name, container.format.name
+        declared, headline = stream.average_rate, stream.frames
+        stamps, keys, time_base, damage = _demux(container, stream)
+    shape = _first_shape(path)
+    may_seek = len(stamps) > 0 and any(name in kind for name in SEEKABLE)
+    if not may_seek:
+        stamps, time_base, damage = _decode_stamps(path, time_base, declared, damage)
+    rate, is_variable = rate_of(stamps, time_base, declared)
+    if damage and headline > len(stamps):
+        damage += f": {len(stamps)} of {headline} frames are there"
+    info = VideoInfo(shape[1], shape[0], len(stamps), float(rate), is_variable, codec, kind, damage)
+    return PictureIndex(path, stamps, np.searchsorted(stamps, keys), time_base, may_seek, rate, info)
+
+
+def _demux(container: InputContainer, stream: VideoStream) -> tuple[IntArray, IntArray, Fraction, str]:
+    """Return sorted stamps of all pictures (empty when they are missing or doubled), of key pictures, and damage."""
+    stamps: list[int | None] = []
+    keys: list[int] = []
+    damage = ""
+    try:
+        for packet in container.demux(stream):
+            if not packet.size or packet.is_discard:
+                continue
+            if packet.is_corrupt:
+                damage = CUT_OFF
+                continue
+            stamps.append(packet.pts)
+            if packet.is_keyframe and packet.pts is not None:
+                keys.append(packet.pts)
+    except av.FFmpegError:
+        damage = CUT_OFF
+    if None in stamps or len(set(stamps)) < len(stamps):
+        stamps, keys = [], []
+    return _sorted(stamps), _sorted(keys), Fraction(stream.time_base or 1), damage
+
+
+def _sorted(values: list[int] | list[int | None]) -> IntArray:
+    return np.sort(np.array(values, dtype=np.int64))
+
+
+def _decode_stamps(
+    path: Path, time_base: Fraction, declared: Fraction | None, damage: str
+) -> tuple[IntArray, Fraction, str]:
+    """Count the pictures by decoding them all; number them when their stamps are missing or do not rise."""
+    stamps: list[int | None] = []
+    with open_video(path) as (container, stream):
+        try:
+            stamps.extend(frame.pts for frame in container.decode(stream))
+        except av.FFmpegError:
+            damage = damage or CUT_OFF
+    known = [stamp for stamp in stamps if stamp is not None]
+    if len(known) < len(stamps) or any(later <= earlier for earlier, later in pairwise(known)):
+        return np.arange(len(stamps), dtype=np.int64), 1 / Fraction(declared or 25), damage
+    return np.array(known, dtype=np.int64), time_base, damage
+
+
+def _first_shape(path: Path) -> tuple[int, int]:
+    """Return height and width of the first picture, upright; the header knows nothing of rotation."""
+    with open_video(path) as (container, stream):
+        for frame in container.decode(stream):
+            return upright_shape(frame)
+    raise VideoError(path.name, EXPECTED, "a file without a picture that can be decoded")

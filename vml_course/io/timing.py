@@ -1,0 +1,63 @@
+"""How fast a video runs, and whether evenly, judged from its time stamps."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import numpy as np
+
+from vml_course.model.arrays import IntArray
+
+ROUNDING_TICKS = 1.5  # stamps rounded to a tick stray by one from a straight line; the line is fitted, too
+
+
+def rate_of(pts: IntArray, time_base: Fraction, declared: Fraction | None) -> tuple[Fraction, bool]:
+    """Return pictures per second and whether the spacing varies beyond the container's rounding.
+
+    Parameters
+    ----------
+    pts : int array, shape (n,)
+        Time stamps in units of `time_base`, in order.
+    declared : Fraction or None
+        The header's rate; taken when the stamps agree with it, because it is not rounded.
+
+    Returns
+    -------
+    rate : Fraction
+        1/s; the mean when the rate varies.
+    is_variable : bool
+    """
+    if len(pts) < 2:
+        return declared or Fraction(0), False
+    span = int(pts[-1] - pts[0])
+    mean = Fraction(len(pts) - 1) / (span * time_base) if span else Fraction(0)
+    if declared and strays(pts, 1 / (declared * time_base)) <= ROUNDING_TICKS:
+        return declared, False
+    if not mean:
+        return declared or mean, True
+    number = np.arange(len(pts), dtype=np.float64)
+    slope = float(np.polyfit(number, (pts - pts[0]).astype(np.float64), 1)[0])
+    is_variable = strays(pts, slope) > _tick(pts) * ROUNDING_TICKS
+    return mean.limit_denominator(100_000), is_variable
+
+
+def strays(pts: IntArray, step: float | Fraction) -> float:
+    """Return the spread (largest less smallest) of the stamps about a line of that step, in ticks.
+
+    >>> strays(np.array([0, 2, 4, 6, 8]), 2)
+    0.0
+    >>> strays(np.array([0, 2, 4, 6, 10]), 2)
+    2.0
+    """
+    offset = (pts - pts[0]).astype(np.float64) - np.arange(len(pts)) * float(step)
+    return float(np.ptp(offset))
+
+
+def _tick(pts: IntArray) -> int:
+    """Return the grid on which the stamps lie: coarser than the time base after a detour by mkv (1 ms).
+
+    A grid as coarse as the spacing itself says nothing about rounding: a dropped picture would hide in it.
+    """
+    steps = np.diff(pts)
+    grid = int(np.gcd.reduce(steps))
+    return grid if np.median(steps) >= 2 * grid else 1
