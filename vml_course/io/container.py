@@ -42,9 +42,17 @@ def open_video(path: Path) -> Iterator[tuple[InputContainer, VideoStream]]:
         raise VideoError(path.name, EXPECTED, *_explain(path, error)) from error
 
 
+def pictures_of(container: InputContainer, stream: VideoStream) -> Iterator[av.VideoFrame]:
+    """Decode the pictures from the present place on; packets that were cut off are left out, as in the index."""
+    for packet in container.demux(stream):
+        if not packet.is_corrupt:
+            yield from packet.decode()
+
+
 def _explain(path: Path, error: av.FFmpegError) -> tuple[str, str]:
-    head = path.open("rb").read(12)
-    if head[4:8] == b"ftyp" and not _has_box(path, b"moov"):
+    with path.open("rb") as file:
+        is_mp4 = file.read(8)[4:] == b"ftyp"
+    if is_mp4 and not _has_box(path, b"moov"):
         return "a cut-off file (its index, the moov atom, is missing)", "Copy it again from the camera."
     if isinstance(error, av.DecoderNotFoundError):
         return "a codec that cannot be decoded", "Convert it to H.264."

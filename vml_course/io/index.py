@@ -17,7 +17,7 @@ from av.container import InputContainer
 from av.video.stream import VideoStream
 
 from vml_course.errors import VideoError
-from vml_course.io.container import EXPECTED, open_video
+from vml_course.io.container import EXPECTED, open_video, pictures_of
 from vml_course.io.planes import upright_shape
 from vml_course.io.timing import rate_of
 from vml_course.model.arrays import IntArray
@@ -25,6 +25,7 @@ from vml_course.model.frame import VideoInfo
 
 # Only in these does a seek land where the stamps say; elsewhere we decode from the start.
 SEEKABLE = ("mp4", "matroska", "avi")
+LONGEST_REORDERING = 16  # pictures, the most that H.264 and HEVC allow
 CUT_OFF = "the file ends early"
 
 
@@ -74,7 +75,9 @@ def index_video(path: Path) -> PictureIndex:
         declared, headline = stream.average_rate, stream.frames
         stamps, keys, time_base, damage = _demux(container, stream)
     shape = _first_shape(path)
-    may_seek = len(stamps) > 0 and any(name in kind for name in SEEKABLE)
+    if damage:
+        stamps = stamps[: _unbroken(stamps)]
+    may_seek = _may_seek(kind, stamps, keys)
     if not may_seek:
         stamps, time_base, damage = _decode_stamps(path, time_base, declared, damage)
     rate, is_variable = rate_of(stamps, time_base, declared)
@@ -106,6 +109,21 @@ def _demux(container: InputContainer, stream: VideoStream) -> tuple[IntArray, In
     return _sorted(stamps), _sorted(keys), Fraction(stream.time_base or 1), damage
 
 
+def _unbroken(stamps: IntArray) -> int:
+    """Return how many pictures of a cut-off file are in line: those stored last may follow missing ones."""
+    steps = np.diff(stamps)
+    tail = max(len(steps) - LONGEST_REORDERING, 0)
+    gaps = np.flatnonzero(steps[tail:] > 1.5 * np.median(steps)) if len(steps) else steps
+    return tail + int(gaps[0]) + 1 if len(gaps) else len(stamps)
+
+
+def _may_seek(kind: str, stamps: IntArray, keys: IntArray) -> bool:
+    """AVI has no stamps of its own: they are guessed, and wrong as soon as pictures are stored out of order."""
+    return (
+        len(stamps) > 0 and any(name in kind for name in SEEKABLE) and ("avi" not in kind or len(keys) == len(stamps))
+    )
+
+
 def _sorted(values: list[int] | list[int | None]) -> IntArray:
     return np.sort(np.array(values, dtype=np.int64))
 
@@ -117,7 +135,7 @@ def _decode_stamps(
     stamps: list[int | None] = []
     with open_video(path) as (container, stream):
         try:
-            stamps.extend(frame.pts for frame in container.decode(stream))
+            stamps.extend(frame.pts for frame in pictures_of(container, stream))
         except av.FFmpegError:
             damage = damage or CUT_OFF
     known = [stamp for stamp in stamps if stamp is not None]
@@ -129,6 +147,6 @@ def _decode_stamps(
 def _first_shape(path: Path) -> tuple[int, int]:
     """Return height and width of the first picture, upright; the header knows nothing of rotation."""
     with open_video(path) as (container, stream):
-        for frame in container.decode(stream):
+        for frame in pictures_of(container, stream):
             return upright_shape(frame)
     raise VideoError(path.name, EXPECTED, "a file without a picture that can be decoded")

@@ -7,7 +7,7 @@ stamp that comes back is the expected one; otherwise decoding starts further bac
 from __future__ import annotations
 
 from collections.abc import Callable, Generator, Iterator
-from contextlib import closing
+from contextlib import closing, suppress
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
@@ -17,7 +17,7 @@ import av
 import numpy as np
 
 from vml_course.errors import FrameRangeError, VideoError
-from vml_course.io.container import open_video
+from vml_course.io.container import open_video, pictures_of
 from vml_course.io.encode import write_video
 from vml_course.io.index import PictureIndex, index_video
 from vml_course.io.planes import bgr_of, luma_of, picture_from_bgr, picture_of
@@ -107,13 +107,14 @@ def _wanted(index: PictureIndex, start: int, end: int | None, step: int) -> rang
 
 
 def _read(index: PictureIndex, wanted: range, make: Callable[[av.VideoFrame], Made]) -> Iterator[tuple[int, Made]]:
+    number = -1
     with closing(_from(index, wanted.start)) as pictures:
         for number, frame in pictures:
             if number in wanted:
                 yield number, make(frame)
             if number >= wanted[-1]:
                 return
-    raise _damage(index, len(index.pts) - 1)
+    raise _damage(index, number + 1)
 
 
 def _from(index: PictureIndex, start: int) -> Numbered:
@@ -135,9 +136,10 @@ def _decode(index: PictureIndex, key: int) -> Numbered:
     number = 0
     with open_video(index.path) as (container, stream):
         if key:
-            container.seek(int(index.pts[key]), stream=stream)
+            with suppress(av.FFmpegError):  # the place that comes back is checked by the caller
+                container.seek(int(index.pts[key]), stream=stream)
         try:
-            for place, frame in enumerate(container.decode(stream)):
+            for place, frame in enumerate(pictures_of(container, stream)):
                 number = number + 1 if place else _first_number(index, frame, key)
                 if frame.is_corrupt or (index.may_seek and frame.pts != _stamp(index, number)):
                     raise _damage(index, number)
