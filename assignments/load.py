@@ -1,0 +1,108 @@
+"""Reads an assignment's folder: TOML in, frozen records out, every mistake named with its key."""
+
+from __future__ import annotations
+
+import importlib.resources
+import tomllib
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from assignments.errors import AssignmentFileError
+from assignments.model import Assignment
+from assignments.resolve import mistakes_in
+from assignments.schema import AssignmentFile
+from vml_course.errors import InputError, UnknownNameError
+
+FILE = "assignment.toml"
+
+
+def catalogue() -> Path:
+    """Return the folder that holds the assignments of this package."""
+    return Path(str(importlib.resources.files("assignments"))) / "catalog"
+
+
+def assignment_ids() -> tuple[str, ...]:
+    """Return the assignments of the catalogue: one folder each."""
+    return tuple(sorted(folder.name for folder in catalogue().iterdir() if (folder / FILE).is_file()))
+
+
+def load_assignment(assignment_id: str) -> Assignment:
+    """Read one assignment of the catalogue.
+
+    Raises
+    ------
+    UnknownNameError
+        When there is no such assignment.
+    AssignmentFileError
+        When its file has mistakes.
+    """
+    if assignment_id not in assignment_ids():
+        raise UnknownNameError("assignment", assignment_id, assignment_ids())
+    return load_folder(catalogue() / assignment_id)
+
+
+def load_folder(folder: Path) -> Assignment:
+    """Read the assignment in a folder; the folder's name is its id.
+
+    Raises
+    ------
+    AssignmentFileError
+        With all mistakes found, each with its key.
+    """
+    place = f"{folder.name}/{FILE}"
+    try:
+        content = tomllib.loads((folder / FILE).read_text(encoding="utf-8"))
+        assignment = AssignmentFile.model_validate(content).record(folder)
+    except FileNotFoundError:
+        raise AssignmentFileError(place, [InputError("file", f"a file named {FILE}", "none")]) from None
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise AssignmentFileError(place, [InputError("file", "TOML in UTF-8", error)]) from error
+    except ValidationError as error:
+        raise AssignmentFileError(place, _named(error, content)) from error
+    mistakes = tuple(mistakes_in(assignment))
+    if mistakes:
+        raise AssignmentFileError(place, mistakes)
+    return assignment
+
+
+def _named(error: ValidationError, content: dict[str, Any]) -> list[InputError]:
+    """Translate pydantic's findings: key, expected, got."""
+    return [
+        _mistake(finding["type"], finding["loc"], finding["msg"], finding["input"], content)
+        for finding in error.errors()
+    ]
+
+
+def _mistake(kind: str, place: tuple[int | str, ...], message: str, got: Any, content: dict[str, Any]) -> InputError:
+    key = _key(place, content)
+    if kind == "extra_forbidden":
+        return InputError(key, "no such key", repr(got)[:60], "Is it misspelt?")
+    if kind == "missing":
+        return InputError(key, "a value", "none")
+    return InputError(key, _expectation(message), repr(got)[:60])
+
+
+def _expectation(message: str) -> str:
+    """Turn "Input should be a valid number, unable to ..." into "a valid number"."""
+    for start in ("Input should be ", "String should match ", "String should "):
+        message = message.removeprefix(start)
+    return message.split(", unable")[0]
+
+
+def _key(place: tuple[int | str, ...], content: Any) -> str:
+    """Name a place as a person does: `question.v_b2.points`, not `question.7.points`."""
+    names: list[str] = []
+    for step in place:
+        content = _inside(content, step)
+        named = isinstance(step, int) and isinstance(content, dict) and isinstance(content.get("id"), str)
+        names.append(content["id"] if named else str(step))
+    return ".".join(names)
+
+
+def _inside(content: Any, step: int | str) -> Any:
+    try:
+        return content[step]
+    except (KeyError, IndexError, TypeError):
+        return None
