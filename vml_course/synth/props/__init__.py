@@ -1,0 +1,1 @@
+"""Things to draw, shared by scenes: limbs, balls, rooms, scale bars."""

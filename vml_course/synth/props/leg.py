@@ -1,0 +1,86 @@
+"""A leg from the knee down: skin, sock, boot, with targets at knee, shin and foot.
+
+Drawn hanging straight down from the knee, which is its origin, toes forward (+x, where the ball is). In
+front, no part reaches farther than the boot's striking circle, so that the leg never enters the ball.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from vml_course.synth.canvas import Canvas, sheet
+from vml_course.synth.props.target import draw_target
+from vml_course.synth.shapes import both, box, disc, tapered, union
+from vml_course.synth.sprite import OVERSAMPLE, Sprite, make_sprite
+from vml_course.synth.texture import Plane, grain
+
+SKIN = (205.0, 156.0, 128.0)
+SOCK = (44.0, 92.0, 168.0)
+BAND = (214.0, 216.0, 222.0)
+BOOT = (206.0, 92.0, 36.0)
+SOLE = (60.0, 56.0, 58.0)
+TOE_M = 0.12
+SOCK_FROM = 0.24  # of the way from knee to foot
+GRAIN_GREY = 25.0
+
+
+@dataclass(frozen=True, slots=True)
+class Leg:
+    """Sizes in metres; `shin_at` is the part of the length at which the shin's target sits."""
+
+    length_m: float
+    foot_m: float
+    knee_m: float
+    shin_m: float
+    shin_at: float
+
+
+def draw_leg(leg: Leg, px_per_m: float, seed: int) -> Sprite:
+    """Draw a leg whose knee is its origin."""
+    wide = max(leg.knee_m, leg.foot_m + 0.05)
+    on = sheet((wide, wide, leg.length_m + TOE_M + leg.foot_m, leg.knee_m), px_per_m, OVERSAMPLE)
+    limb, boot = _limb(on, leg), _boot(on, leg)
+    on.fill(limb, SKIN)
+    _draw_sock(on, leg, limb)
+    on.fill(boot, SOLE)
+    on.fill(_boot(on, leg, sole=0.012), BOOT)
+    outline = union(limb, boot)
+    on.lighten(_roundness(on, leg), outline)
+    speckle = grain(seed, "leg", (on.opacity.shape[0], on.opacity.shape[1]), OVERSAMPLE)
+    on.lighten(GRAIN_GREY * speckle, outline)
+    for way in (0.0, leg.shin_at, 1.0):
+        draw_target(on, (0.0, -way * leg.length_m), OVERSAMPLE)
+    return make_sprite(on)
+
+
+def _limb(on: Canvas, leg: Leg) -> Plane:
+    """Return the distance to knee, calf and ankle."""
+    shin = ((0.0, -leg.shin_at * leg.length_m), leg.shin_m)
+    knee = ((0.0, 0.0), leg.knee_m)
+    ankle = ((-0.1 * leg.foot_m, -0.86 * leg.length_m), 0.78 * leg.foot_m)
+    return union(tapered(on, knee, shin), tapered(on, shin, ankle))
+
+
+def _boot(on: Canvas, leg: Leg, sole: float = 0.0) -> Plane:
+    """Return the distance to the boot, less a sole on its back."""
+    foot = ((-sole / 2, -leg.length_m), leg.foot_m - sole / 2)
+    collar = ((-0.1 * leg.foot_m, -0.86 * leg.length_m), 0.85 * leg.foot_m - sole / 2)
+    toe = ((-0.15 * leg.foot_m, -leg.length_m - TOE_M), 0.5 * leg.foot_m - sole / 2)
+    heel = ((-0.45 * leg.foot_m, -0.9 * leg.length_m), 0.75 * leg.foot_m)
+    shape = union(tapered(on, foot, toe), tapered(on, collar, foot), tapered(on, heel, foot))
+    striking = disc(on, (0.0, -leg.length_m), leg.foot_m)
+    return union(shape, striking) if not sole else shape
+
+
+def _draw_sock(on: Canvas, leg: Leg, limb: Plane) -> None:
+    top = -SOCK_FROM * leg.length_m
+    on.fill(both(limb, box(on, (-1.0, -1.0), (1.0, top))), SOCK)
+    for drop in (0.012, 0.04):
+        on.fill(both(limb, box(on, (-1.0, top - drop - 0.014), (1.0, top - drop))), BAND)
+
+
+def _roundness(on: Canvas, leg: Leg) -> Plane:
+    """Darken towards the back of the leg, so that it looks round."""
+    return np.asarray(22.0 * np.clip(on.x_m / leg.shin_m, -1.0, 0.6) + 0.0 * on.y_m, np.float32)

@@ -1,0 +1,39 @@
+"""Marks that one can click exactly: a quadrant target, as on crash-test dummies, and a ranging pole."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from vml_course.synth.canvas import Canvas
+from vml_course.synth.shapes import Point, box, disc
+
+BLACK = (28.0, 28.0, 30.0)
+WHITE = (236.0, 236.0, 232.0)
+RED = (196.0, 44.0, 40.0)
+TARGET_M = 0.022
+SMALLEST_TARGET_PX = 7.0
+
+
+def draw_target(on: Canvas, centre: Point, samples_per_px: float) -> None:
+    """Draw a disc of two black and two white quarters that meet in `centre`."""
+    radius = max(TARGET_M, SMALLEST_TARGET_PX * samples_per_px / on.samples_per_m)
+    rim = disc(on, centre, radius)
+    on.fill(disc(on, centre, 1.12 * radius), BLACK)
+    on.fill(rim, WHITE)
+    across, along = on.x_m - centre[0], on.y_m - centre[1]
+    # Smallest of the two distances to the dividing lines: exact along both, which is where one measures.
+    quarters = np.where(across * along > 0, -1.0, 1.0) * np.minimum(np.abs(across), np.abs(along))
+    on.fill(np.maximum(quarters, rim).astype(np.float32), BLACK)
+
+
+def draw_pole(on: Canvas, left: Point, right: Point) -> None:
+    """Draw a level pole of ten red and white parts with upright end marks exactly at `left` and `right`."""
+    parts, (x, y), length = 10, left, right[0] - left[0]
+    half = 0.014
+    on.fill(box(on, (x, y - half - 0.004), (right[0], y + half + 0.004)), BLACK)
+    for part in range(parts):
+        ends = x + length * part / parts, x + length * (part + 1) / parts
+        on.fill(box(on, (ends[0], y - half), (ends[1], y + half)), RED if part % 2 == 0 else WHITE)
+    for end, inward in ((left, 1.0), (right, -1.0)):
+        edges = sorted((end[0], end[0] + inward * 0.006))
+        on.fill(box(on, (edges[0], y - 0.04), (edges[1], y + 0.04)), BLACK)

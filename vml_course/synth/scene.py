@@ -1,0 +1,143 @@
+"""What a scene is, and which scenes there are.
+
+A scene is its parameters: a frozen record whose fields are declared once with `quantity()`. A file in
+`synth/scenes` that holds one subclass of `Scene` is a scene that exists; nothing else has to know of it.
+"""
+
+from __future__ import annotations
+
+import importlib
+import pkgutil
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+from typing import TYPE_CHECKING, ClassVar
+
+from vml_course.errors import UnknownNameError
+from vml_course.model.camera import Camera
+from vml_course.model.quantity import check_quantities, quantity
+from vml_course.synth import scenes
+from vml_course.synth.clock import Clock, set_clock
+from vml_course.synth.stage import PinnedStrike, Stage
+
+if TYPE_CHECKING:
+    from vml_course.synth.look import Look
+
+
+@dataclass(frozen=True)
+class Marker:
+    """A point that students track: on which body it sits, where, and how far its outline reaches.
+
+    Attributes
+    ----------
+    name, body : str
+    local_m : (float, float)
+        In the body's own axes, y up.
+    outline_m : float
+        Radius around the point that must stay in the picture.
+    """
+
+    name: str
+    body: str
+    local_m: tuple[float, float]
+    outline_m: float
+
+
+@dataclass(frozen=True)
+class Scene(ABC):
+    """Base of all scenes: say the parameters, the physics, what is tracked, and how it looks.
+
+    To add one, write a file in `synth/scenes` with one subclass: a frozen dataclass with the class
+    attributes below, its fields by `quantity()`, and the abstract methods.
+
+    Attributes
+    ----------
+    name : str
+        What is typed: `vml render NAME`.
+    title : str
+        One line for a list.
+    model : str
+        Name of the impact model in `kinetics` that solves it.
+    default_camera : Camera
+    bodies : tuple of str
+        The moving bodies, striker first.
+    vector : (str, str)
+        The points from which to which the striker's angle is measured.
+    """
+
+    name: ClassVar[str]
+    title: ClassVar[str]
+    model: ClassVar[str]
+    default_camera: ClassVar[Camera]
+    bodies: ClassVar[tuple[str, str]]
+    vector: ClassVar[tuple[str, str]]
+
+    time_before_s: float = quantity(0.05, "s", 0.04, 0.1, about="time shown before the impact")
+    time_after_s: float = quantity(0.05, "s", 0.04, 0.1, about="time shown after the impact")
+    impact_phase: float = quantity(0.5, "", 0.0, 0.99, about="part of a frame interval by which the impact is late")
+
+    def __post_init__(self) -> None:
+        check_quantities(self)
+
+    def clock(self, fps: float, refine: int = 1) -> Clock:
+        """Return frames and steps of the clip; `refine` divides the time step further."""
+        return set_clock(fps, self.time_before_s, self.time_after_s, self.impact_phase, refine)
+
+    @abstractmethod
+    def strike(self) -> PinnedStrike:
+        """Return the physics in numbers: what the scene promises."""
+
+    @abstractmethod
+    def build(self, clock: Clock) -> Stage:
+        """Set the physics up in pymunk, so that the impact falls on the clock's."""
+
+    @abstractmethod
+    def markers(self) -> tuple[Marker, ...]:
+        """Return the points to track."""
+
+    @abstractmethod
+    def marks_m(self) -> dict[str, tuple[float, float]]:
+        """Return still points to calibrate with, in metres, y up."""
+
+    @abstractmethod
+    def given(self) -> dict[str, float]:
+        """Return what the solver is told, by symbol, SI units."""
+
+    @abstractmethod
+    def look(self, camera: Camera, seed: int) -> Look:
+        """Draw the background and one sprite a body."""
+
+
+@cache
+def _registry() -> Mapping[str, type[Scene]]:
+    modules = [
+        importlib.import_module(f"{scenes.__name__}.{item.name}") for item in pkgutil.iter_modules(scenes.__path__)
+    ]
+    found = [
+        item
+        for module in modules
+        for item in vars(module).values()
+        if isinstance(item, type) and issubclass(item, Scene) and item.__module__ == module.__name__
+    ]
+    return {scene.name: scene for scene in sorted(found, key=lambda scene: scene.name)}
+
+
+def scene_names() -> tuple[str, ...]:
+    """Return the names of all scenes, sorted."""
+    return tuple(_registry())
+
+
+def scene_class(name: str) -> type[Scene]:
+    """Return the scene of a name.
+
+    Raises
+    ------
+    UnknownNameError
+
+    >>> scene_class("soccer_kick").title
+    'A leg that swings about the knee kicks a football off a tee'
+    """
+    if name not in _registry():
+        raise UnknownNameError("scene", name, scene_names())
+    return _registry()[name]

@@ -1,0 +1,67 @@
+"""Make a clip whose truth is known: simulate, render, write the video and the truth beside it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from vml_course.io.truth import write_truth_csv, write_truth_json
+from vml_course.io.video import write_video
+from vml_course.model.camera import Camera
+from vml_course.model.frame import Picture
+from vml_course.model.recording import Recording
+from vml_course.model.truth import Truth
+from vml_course.synth.render import render
+from vml_course.synth.scene import Scene
+from vml_course.synth.simulate import simulate
+
+Progress = Callable[[int, int], None]
+
+
+@dataclass(frozen=True, eq=False)
+class MadeVideo:
+    """Where the video is, and what is true of it."""
+
+    video: Path
+    truth: Truth
+
+
+def make_video(  # noqa: PLR0913, PLR0917 - what is filmed, how, and where to
+    scene: Scene, camera: Camera, recording: Recording, seed: int, folder: Path, progress: Progress | None = None
+) -> MadeVideo:
+    """Write `video.mp4` (or `.avi`), `truth.json` and `truth.csv` into a folder.
+
+    The video itself holds nothing of the truth, neither in its name nor in its metadata.
+
+    Parameters
+    ----------
+    scene, camera, recording
+        What is filmed and how.
+    seed : int
+        For textures and noise.
+    folder : Path
+        Made when missing.
+    progress : callable, optional
+        Told after every picture: how many are done, of how many.
+
+    Raises
+    ------
+    SceneRefusedError
+        Before anything is written.
+    """
+    truth = simulate(scene, camera, seed)
+    folder.mkdir(parents=True, exist_ok=True)
+    video = folder / f"video.{recording.format}"
+    pictures = _counted(render(truth, recording), len(truth.time_s), progress)
+    write_video(video, pictures, camera.fps, int(recording.crf))
+    write_truth_json(folder / "truth.json", truth)
+    write_truth_csv(folder / "truth.csv", truth)
+    return MadeVideo(video, truth)
+
+
+def _counted(pictures: Iterator[Picture], total: int, progress: Progress | None) -> Iterator[Picture]:
+    for done, picture in enumerate(pictures, start=1):
+        yield picture
+        if progress:
+            progress(done, total)
