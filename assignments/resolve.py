@@ -1,4 +1,4 @@
-"""Does everything that an assignment names exist, and do its ranges fit the scene?
+"""Whether everything that an assignment names exists, and its ranges fit the scene.
 
 Check names (`check = "velocity"`) are not resolved here: checks live on the floor above.
 """

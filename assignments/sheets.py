@@ -12,6 +12,7 @@ from openpyxl.styles import Alignment, Border, Font, PatternFill, Protection, Si
 from openpyxl.utils import get_column_letter
 from openpyxl.workbook.defined_name import DefinedName
 from openpyxl.worksheet.datavalidation import DataValidation
+from openpyxl.worksheet.properties import PageSetupProperties
 from openpyxl.worksheet.worksheet import Worksheet
 
 from assignments.model import Assignment, Given, Question, Variant
@@ -28,19 +29,16 @@ _HEAD = Font(name="Calibri", size=11, bold=True, color="FFFFFF")
 _GROUP = Font(name="Calibri", size=12, bold=True, color=_INK)
 _BODY = Font(name="Calibri", size=11)
 _QUIET = Font(name="Calibri", size=10, color="5B6B75")
+_SUBSCRIPT = InlineFont(rFont="Calibri", sz=11, vertAlign="subscript")
 _HEAD_FILL = PatternFill("solid", fgColor=_INK)
 _GROUP_FILL = PatternFill("solid", fgColor=_PALE)
 _TYPE_FILL = PatternFill("solid", fgColor=_TYPE_HERE)
-_THIN = Border(**{side: Side(style="thin", color=_LINE) for side in ("left", "right", "top", "bottom")})
+_SIDE = Side(style="thin", color=_LINE)
+_THIN = Border(left=_SIDE, right=_SIDE, top=_SIDE, bottom=_SIDE)
+_NOTHING_FILL = PatternFill("lightUp", fgColor=_LINE)
 _OPEN = Protection(locked=False)
-_TOP = Alignment(vertical="center", wrap_text=True)
+_TOP = Alignment(horizontal="left", vertical="center", wrap_text=True, indent=1)
 _MIDDLE = Alignment(horizontal="center", vertical="center", wrap_text=True)
-
-_GROUP_TITLES = {
-    "calibration": "Calibration",
-    "measurement": "Measurement",
-    "conclusion": "Conclusion",
-}
 
 
 @dataclass(frozen=True)
@@ -71,7 +69,7 @@ def add_instructions(book: Workbook, assignment: Assignment, variant: Variant, g
         _put(sheet, row, 1, number, Look(font=_GROUP, alignment=Alignment(horizontal="center", vertical="top")))
         sheet.merge_cells(start_row=row, start_column=2, end_row=row, end_column=5)
         _put(sheet, row, 2, step, Look(alignment=Alignment(vertical="top", wrap_text=True)))
-        sheet.row_dimensions[row].height = 15.5 * (1 + len(step) // 92)
+        sheet.row_dimensions[row].height = 17.0 * (1 + len(step) // 105)
         row += 1
     _given_table(sheet, row + 1, assignment.givens, given)
     footer = f"Workbook {variant.code}, made for you only: your numbers differ from everybody else's."
@@ -80,7 +78,7 @@ def add_instructions(book: Workbook, assignment: Assignment, variant: Variant, g
 
 def add_answers(book: Workbook, assignment: Assignment) -> None:
     """Add the sheet of answers: a named value cell and a named unit cell for each question."""
-    sheet = _sheet(book, ANSWERS, widths=(50, 9, 18, 13, 9, 17, 62))
+    sheet = _sheet(book, ANSWERS, widths=(52, 9, 18, 13, 9, 25, 70))
     _put(sheet, 1, 1, f"{assignment.title}: answers", Look(font=_TITLE, alignment=Alignment(vertical="center")))
     sheet.row_dimensions[1].height = 30
     _line(
@@ -142,18 +140,19 @@ _TRACKING_NOTES = (
 )
 
 
-def _steps(assignment: Assignment) -> tuple[str, ...]:
-    points = ", ".join(assignment.points)
-    return (
-        "Read the handout: it shows the first picture of your video, the points to follow and the signs.",
-        f"Measure your video: enter the true frame rate, calibrate with the known length, track {points}.",
-        f'Paste the measured positions into the sheet "{TRACKING}": seconds and metres, y up. They support your answers: '
-        "full points for the conclusions need them.",
-        f'Fill the coloured cells of the sheet "{ANSWERS}": a number, and its unit from the list beside it. '
-        "Keep at least three digits; round nothing on the way.",
-        "Save as an Excel workbook (.xlsx) and hand in this file. Leave the names of the sheets as they are; "
-        "you may add sheets of your own.",
-    )
+_STEPS = f"""\
+Read the handout: it shows the first picture of your video, the points to follow and the signs.
+Measure your video: enter the true frame rate, calibrate with the known length, track {{points}}.
+Paste the measured positions into the sheet "{TRACKING}": seconds and metres, y up. They support your answers.
+Fill the coloured cells of the sheet "{ANSWERS}": a number, and its unit from the list beside it. \
+Keep at least four digits on the way and give at least three.
+Save as an Excel workbook (.xlsx) and hand in this file. Leave the names of the sheets as they are; \
+you may add sheets of your own.
+"""
+
+
+def _steps(assignment: Assignment) -> list[str]:
+    return _STEPS.format(points=", ".join(assignment.points)).splitlines()
 
 
 # ---------------------------------------------------------------- rows
@@ -173,7 +172,8 @@ def _group_row(sheet: Worksheet, row: int, group: str, questions: Iterable[Quest
     points = sum(question.points for question in questions)
     for column in range(1, 8):
         _put(sheet, row, column, None, Look(fill=_GROUP_FILL, border=_THIN))
-    _put(sheet, row, 1, _GROUP_TITLES.get(group, group.title()), Look(font=_GROUP, fill=_GROUP_FILL, border=_THIN))
+    sheet.row_dimensions[row].height = 20
+    _put(sheet, row, 1, group.title(), Look(font=_GROUP, fill=_GROUP_FILL, border=_THIN))
     _put(sheet, row, 5, points, Look(font=_GROUP, alignment=_MIDDLE, fill=_GROUP_FILL, border=_THIN))
 
 
@@ -186,7 +186,7 @@ def _question_row(book: Workbook, sheet: Worksheet, row: int, question: Question
     _open_cell(book, sheet, row, 3, f"ans_{question.id}")
     _check_number(sheet, f"C{row}", question)
     if question.dimension == "number":
-        _put(sheet, row, 4, None, _CENTRE)
+        _put(sheet, row, 4, None, Look(fill=_NOTHING_FILL, border=_THIN))
         _name(book, sheet, row, 4, f"unit_{question.id}")
     else:
         _open_cell(book, sheet, row, 4, f"unit_{question.id}")
@@ -236,7 +236,7 @@ def _units_lists(sheet: Worksheet, assignment: Assignment) -> None:
 
 
 def _sheet(book: Workbook, title: str, widths: Sequence[float]) -> Worksheet:
-    sheet = book.create_sheet(title)
+    sheet: Worksheet = book.create_sheet(title)
     sheet.sheet_view.showGridLines = False
     for column, width in enumerate(widths, start=1):
         sheet.column_dimensions[get_column_letter(column)].width = width
@@ -246,7 +246,7 @@ def _sheet(book: Workbook, title: str, widths: Sequence[float]) -> Worksheet:
     )
     sheet.page_setup.orientation, sheet.page_setup.paperSize = "landscape", 9
     sheet.page_setup.fitToWidth, sheet.page_setup.fitToHeight = 1, 0
-    sheet.sheet_properties.pageSetUpPr.fitToPage = True
+    sheet.sheet_properties.pageSetUpPr = PageSetupProperties(fitToPage=True)
     return sheet
 
 
@@ -273,4 +273,4 @@ def _header(sheet: Worksheet, row: int, titles: Iterable[str], first_column: int
 def _rich(symbol: str) -> object:
     """Write `v_f1` as v with a subscript."""
     letter, below = split_symbol(symbol)
-    return CellRichText(letter, TextBlock(InlineFont(vertAlign="subscript"), below)) if below else letter
+    return CellRichText(letter, TextBlock(_SUBSCRIPT, below)) if below else letter

@@ -7,7 +7,7 @@ which also means that they tell nothing.
 
 from __future__ import annotations
 
-import datetime
+import datetime as dt
 import io
 import math
 import re
@@ -24,7 +24,7 @@ from assignments.sheets import TRACKING, add_answers, add_instructions, add_meta
 from vml_course.errors import UnknownNameError
 from vml_course.io.files import existing, replacing
 
-_EPOCH = datetime.datetime(2000, 1, 1)  # noqa: DTZ001 - Office's document properties know no zone
+_EPOCH = dt.datetime(2000, 1, 1)  # noqa: DTZ001 - Office's document properties know no zone
 _ZIP_EPOCH = (1980, 1, 1, 0, 0, 0)
 _MODIFIED = re.compile(rb"(<dcterms:modified[^>]*>)[^<]*")
 
