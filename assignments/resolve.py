@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from assignments.derive import FORMULAS, arguments_of
+from assignments.key import ANSWERABLE
 from assignments.mistakes import MISTAKES
 from assignments.model import Assignment, Draw
 from vml_course.errors import InputError, UnknownNameError, VmlError
@@ -40,6 +41,7 @@ def mistakes_in(assignment: Assignment) -> Mistakes:
 def _questions(assignment: Assignment) -> Mistakes:
     ids = [question.id for question in assignment.questions]
     yield from _twice("question", ids)
+    yield from _unknown("question.id", ids, ANSWERABLE)
     for question in assignment.questions:
         key = f"question.{question.id}"
         yield from _unknown(f"{key}.needs", question.needs, [other for other in ids if other != question.id])

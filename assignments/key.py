@@ -1,0 +1,153 @@
+"""The answer key: computed once, from the very truth that was rendered, and kept by the instructor."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Callable, Mapping
+from importlib.metadata import version
+from typing import Any
+
+import numpy as np
+
+from assignments.model import AnswerKey, Assignment, Variant
+from assignments.variants import given_values
+from vml_course.errors import InputError
+from vml_course.model.solution import ImpactSolution
+from vml_course.model.truth import ImpactTruth, Truth
+
+
+def answer_key(
+    assignment: Assignment, variant: Variant, truth: Truth, measured: ImpactSolution | None, video_sha256: str
+) -> AnswerKey:
+    """Return what is true of a variant, beside what the reference measured on its video.
+
+    Parameters
+    ----------
+    assignment : Assignment
+    variant : Variant
+    truth : Truth
+        Of the video that is handed out.
+    measured : ImpactSolution or None
+        What the reference tracker and solver found in that video; its standard deviations are the precision
+        that can be expected of a careful student.
+    video_sha256 : str
+
+    Raises
+    ------
+    InputError
+        When a question asks for something that no truth is known of.
+    """
+    estimates = measured.estimates if measured else {}
+    return AnswerKey(
+        assignment_id=assignment.id,
+        student=variant.student,
+        code=variant.code,
+        values={question.id: true_value(question.id, truth) for question in assignment.questions},
+        expected_sd={symbol: estimate.sd for symbol, estimate in estimates.items()},
+        measured={symbol: estimate.value for symbol, estimate in estimates.items()},
+        given=given_values(assignment, variant),
+        truth=_further(truth),
+        video_sha256=video_sha256,
+        versions={
+            **truth.versions,
+            "vml_course": version("vml-course"),
+            "generator": variant.generator_version,
+            "assignment": assignment.version,
+        },
+        points=truth.points,
+        frame=np.arange(len(truth.time_s)),
+        time_s=truth.time_s,
+        xy_px=truth.xy_px,
+        parameters=dict(truth.parameters),
+    )
+
+
+# ---------------------------------------------------------------- what is true
+
+_TRUE: Mapping[str, Callable[[Truth], float]] = {
+    "px_per_m": lambda truth: truth.camera.px_per_m,
+    "fps": lambda truth: truth.camera.fps,
+    "omega1": lambda truth: truth.impact.omega_before_rad_s,
+    "omega2": lambda truth: truth.impact.omega_after_rad_s,
+    "v_f1": lambda truth: truth.impact.omega_before_rad_s * truth.given["L"],
+    "v_f2": lambda truth: truth.impact.omega_after_rad_s * truth.given["L"],
+    "v_b1": lambda truth: _along(truth.impact, truth.impact.struck_before_m_s),
+    "v_b2": lambda truth: _along(truth.impact, truth.impact.struck_after_m_s),
+    "e": lambda truth: truth.impact.restitution,
+    "I": lambda truth: truth.impact.inertia_kg_m2,
+}
+
+ANSWERABLE = tuple(_TRUE)
+"""Ids of the questions whose true value is known; a new one is a line above."""
+
+
+def true_value(question: str, truth: Truth) -> float:
+    """Return the true answer to a question, in SI units.
+
+    Speeds of the striking point are along its path, those of the struck body along the contact normal;
+    both are positive in the direction of the strike.
+
+    Raises
+    ------
+    InputError
+        When no truth is known of that question.
+    """
+    if question not in _TRUE:
+        raise InputError(f"question.{question}", f"one of {', '.join(ANSWERABLE)}", repr(question))
+    return float(_TRUE[question](truth))
+
+
+def _along(impact: ImpactTruth, velocity_m_s: Any) -> float:
+    return float(np.dot(velocity_m_s, impact.normal))
+
+
+def _further(truth: Truth) -> dict[str, float]:
+    impact = truth.impact
+    leg_rad = float(np.interp(impact.time_s, truth.time_s, truth.leg_angle_rad))
+    path_rad = leg_rad + math.copysign(math.pi / 2, impact.omega_before_rad_s)
+    normal_rad = math.atan2(impact.normal[1], impact.normal[0])
+    return {
+        "px_per_m": truth.camera.px_per_m,
+        "fps": truth.camera.fps,
+        "origin_x_px": truth.camera.origin_x_px,
+        "origin_y_px": truth.camera.origin_y_px,
+        "R": truth.given.get("D", math.nan) / 2,
+        "arm_m": impact.arm_m,
+        "impulse_N_s": impact.impulse_N_s,
+        "t_impact_s": impact.time_s,
+        "frame_before": float(impact.frame_before),
+        "theta_impact_rad": leg_rad,
+        "tilt_rad": math.remainder(normal_rad - path_rad, 2 * math.pi),
+    }
+
+
+# ---------------------------------------------------------------- to keep
+
+
+def to_json(key: AnswerKey) -> dict[str, Any]:
+    """Return a key as plain lists, texts and numbers; an unknown number (NaN) becomes null."""
+    return {field.name: _plain(getattr(key, field.name)) for field in dataclasses.fields(key)}
+
+
+def from_json(content: Mapping[str, Any]) -> AnswerKey:
+    """Return the key that `to_json` wrote; null becomes NaN."""
+    numbers = {name: _numbers(value) for name, value in content.items() if name in _NUMBER_MAPS}
+    return AnswerKey(**{**content, **numbers, "points": tuple(content["points"])})
+
+
+_NUMBER_MAPS = ("values", "expected_sd", "measured", "given", "truth", "parameters")
+
+
+def _numbers(values: Mapping[str, float | None]) -> dict[str, float]:
+    return {name: math.nan if value is None else value for name, value in values.items()}
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, np.ndarray):
+        return value.tolist()
+    if isinstance(value, Mapping):
+        return {name: _plain(item) for name, item in value.items()}
+    if isinstance(value, tuple):
+        return list(value)
+    return None if isinstance(value, float) and math.isnan(value) else value
