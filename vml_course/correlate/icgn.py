@@ -1,0 +1,282 @@
+"""Matching a block to a picture: inverse-compositional Gauss-Newton on the zero-normalised criterion.
+
+One kernel call a block: cut and filter the crop, iterate, judge. The picture is modelled as
+`picture(W(X)) = offset + gain * block(X)`; a step moves the block by dp = M (J' picture) / gain with M and J
+from `template`, and the warp becomes W o w(dp)^-1.
+
+The reported covariance is that of the linear fit with residuals that are correlated from pixel to pixel,
+as they are after interpolation and in compressed video:
+
+    V(u) = 1/gain**2 * sum over lags C(lag) * sum over i K(i) K(i + lag)
+
+where K = M J is the influence of each pixel on u and C the residual's covariance measured in the block at
+lags up to 5 px each way (Conley, J. Econometrics 92 (1999) 1, equation 4.1, with stationary residuals; for
+white residuals it is the usual s**2 H^-1). The residual holds the noise of both pictures, so V does.
+"""
+
+from __future__ import annotations
+
+from enum import IntEnum
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from vml_course.correlate.bspline import f4, sample_row, spline_crop
+from vml_course.correlate.template import Template
+
+FloatArray = NDArray[np.float64]
+
+MARGIN = 4  # px that a block may move before its crop is cut again
+LARGEST_STEP = 6.0  # px at the corner, one iteration
+SMALLEST_GAIN = 0.5  # share of the contrast ratio; a poor start must not turn into a giant step
+LARGEST_STRETCH = 3.0
+
+
+class Outcome(IntEnum):
+    """How the iterations ended."""
+
+    CONVERGED = 0
+    NOT_CONVERGED = 1
+    OUTSIDE = 2
+    RUNAWAY = 3
+    BLANK = 4
+
+
+class Match(NamedTuple):
+    """Where a block was found.
+
+    Attributes
+    ----------
+    pose : float array, shape (6,)
+        Centre x, y (px) and A row by row (xx, xy, yx, yy): a point at offset X of the block is seen at centre + A X.
+    outcome : Outcome
+    iterations : int
+    zncc : float
+    sigma_px : float
+        Standard deviation of a coordinate of the centre (root mean square of x and y).
+    gain, residual_grey : float
+        Contrast against the block, and the residual's standard deviation.
+    """
+
+    pose: FloatArray
+    outcome: Outcome
+    iterations: int
+    zncc: float
+    sigma_px: float
+    gain: float
+    residual_grey: float
+
+
+def match(
+    image: NDArray[np.uint8],
+    template: Template,
+    start: FloatArray,
+    *,
+    max_iterations: int = 40,
+    tolerance_px: float = 1e-3,
+    max_shift_px: float = 40.0,
+) -> Match:
+    """Find the block near a first guess.
+
+    Parameters
+    ----------
+    image : uint8 array, shape (height, width)
+        C-contiguous and read-only, so that one compiled kernel serves every caller.
+    template : Template
+    start : float array, shape (6,)
+        First guess of the pose.
+    max_iterations : int
+    tolerance_px : float
+        Converged when no corner of the block moves by more.
+    max_shift_px : float
+        The centre may not leave its first guess by more along x or y.
+    """
+    report = np.full(6, np.nan)
+    pose = np.array(start, dtype=np.float64)
+    outcome = iterate(image, template, pose, np.array([max_iterations, tolerance_px, max_shift_px]), report)
+    return Match(pose, Outcome(outcome), int(report[0]), report[1], report[2], report[3], report[4])
+
+
+@njit(nogil=True, cache=True, fastmath=True)
+def sample_and_sum(crop, local, template, sampled, sums):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN201
+    """Sample the picture under the warped block and form the nine sums of a step, block mean removed.
+
+    sums: w f, w f**2, w f r, then the products of f with the six steepest-descent images.
+    """
+    n, m = sampled.shape
+    index, lanes = np.empty(m, np.int32), np.empty((8, m), np.float32)
+    flat, stride = crop.ravel(), np.int32(crop.shape[1])
+    left, mean = template.left, f4(template.mean)
+    sums[:] = 0.0
+    for i in range(n):
+        down = template.top + i
+        x, y = local[0] + local[2] * left + local[3] * down, local[1] + local[4] * left + local[5] * down
+        f, w, r, d = sampled[i], template.weight[i], template.values[i], template.descent[:, i]
+        sample_row(flat, stride, f4(x), f4(y), f4(local[2]), f4(local[4]), index, lanes, f)
+        s0, s1, s2 = f4(0), f4(0), f4(0)
+        a, b, c, e, g, h = f4(0), f4(0), f4(0), f4(0), f4(0), f4(0)
+        for j in range(m):
+            fj = f[j] - mean
+            f[j] = fj
+            wf = w[j] * fj
+            s0 += wf
+            s1 += wf * fj
+            s2 += wf * r[j]
+            a += d[0, j] * fj
+            b += d[1, j] * fj
+            c += d[2, j] * fj
+            e += d[3, j] * fj
+            g += d[4, j] * fj
+            h += d[5, j] * fj
+        for k, s in enumerate((s0, s1, s2, a, b, c, e, g, h)):
+            sums[k] += s
+
+
+@njit(nogil=True, cache=True)
+def bounds(pose, template):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN201
+    """Return left, top, right, bottom of the upright box around the warped block, px."""
+    n, m = template.values.shape
+    half_x, half_y = 0.5 * (m - 1), 0.5 * (n - 1)
+    middle_x, middle_y = template.left + half_x, template.top + half_y
+    x = pose[0] + pose[2] * middle_x + pose[3] * middle_y
+    y = pose[1] + pose[4] * middle_x + pose[5] * middle_y
+    ex = abs(pose[2]) * half_x + abs(pose[3]) * half_y
+    ey = abs(pose[4]) * half_x + abs(pose[5]) * half_y
+    return x - ex, y - ey, x + ex, y + ey
+
+
+@njit(nogil=True, cache=True)
+def place(image, pose, start, max_shift, template):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN201
+    """Return 0 when a block at this pose can be sampled, 2 when outside the image, 3 when it ran away."""
+    for k in range(6):
+        if not np.isfinite(pose[k]) or (k > 1 and abs(pose[k]) > LARGEST_STRETCH):
+            return 3
+    if abs(pose[0] - start[0]) > max_shift or abs(pose[1] - start[1]) > max_shift:
+        return 3
+    left, top, right, bottom = bounds(pose, template)
+    if left < 0.0 or top < 0.0 or right > image.shape[1] - 1 or bottom > image.shape[0] - 1:
+        return 2
+    return 0
+
+
+@njit(nogil=True, cache=True)
+def compose(pose, step, rigid):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN201
+    """Replace the warp W by W o w(step)^-1; a rigid one is brought back to a rotation."""
+    a, b, c, d = 1.0 + step[2], step[3], step[4], 1.0 + step[5]
+    det = a * d - b * c
+    xx, xy, yx, yy = pose[2], pose[3], pose[4], pose[5]
+    pose[2], pose[3] = (xx * d - xy * c) / det, (xy * a - xx * b) / det
+    pose[4], pose[5] = (yx * d - yy * c) / det, (yy * a - yx * b) / det
+    if rigid:
+        angle = np.arctan2(pose[4] - pose[3], pose[2] + pose[5])
+        pose[2], pose[3], pose[4], pose[5] = np.cos(angle), -np.sin(angle), np.sin(angle), np.cos(angle)
+    pose[0] -= pose[2] * step[0] + pose[3] * step[1]
+    pose[1] -= pose[4] * step[0] + pose[5] * step[1]
+
+
+@njit(nogil=True, cache=True)
+def gauss_newton_step(template, sums, step):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN201
+    """Write the six parameters of a step; return how far a corner moves at most, -1 for a blank picture."""
+    spread = sums[1] - sums[0] * sums[0] / template.total
+    if spread <= 1e-6 * template.total:
+        return -1.0
+    gain = max(sums[2] / template.energy, SMALLEST_GAIN * np.sqrt(spread / template.energy))
+    for k in range(6):
+        step[k] = 0.0
+        for q in range(6):
+            step[k] += template.solve[k, q] * sums[3 + q]
+        step[k] /= gain
+    n, m = template.values.shape
+    across, down = 0.5 * (m - 1), 0.5 * (n - 1)
+    dx = abs(step[0]) + abs(step[2]) * across + abs(step[3]) * down
+    dy = abs(step[1]) + abs(step[4]) * across + abs(step[5]) * down
+    moved = np.sqrt(dx * dx + dy * dy)
+    if moved > LARGEST_STEP:
+        for k in range(6):
+            step[k] *= LARGEST_STEP / moved
+    return moved
+
+
+@njit(nogil=True, cache=True, fastmath=True)
+def residual_covariance(residual, dy, dx):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN201
+    """Return the mean product of a residual (n, m) with itself, shifted by (dy, dx)."""
+    n, m = residual.shape
+    total = np.float64(0)
+    for i in range(n - dy):
+        a, b = residual[i, max(0, -dx) : m - max(0, dx)], residual[i + dy, max(0, dx) : m + min(0, dx)]
+        s = f4(0)
+        for j in range(a.size):
+            s += a[j] * b[j]
+        total += np.float64(s)
+    return total / ((n - dy) * (m - abs(dx)))
+
+
+@njit(nogil=True, cache=True)
+def judge(template, sampled, sums, pose, report):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN201
+    """Write ZNCC, sigma, gain and residual of the block at its last place; see the module's formula."""
+    n, m = sampled.shape
+    mean = sums[0] / template.total
+    spread = sums[1] - sums[0] * mean
+    gain = sums[2] / template.energy
+    report[1], report[3] = sums[2] / np.sqrt(template.energy * spread), gain
+    for i in range(n):
+        for j in range(m):
+            sampled[i, j] = template.weight[i, j] * (sampled[i, j] - f4(mean) - f4(gain) * template.values[i, j])
+    lags = int(np.sqrt(template.influence.shape[0] / 2.0))  # 2 L**2 + 2 L + 1 lags in the half plane
+    uu, uv, vv, k = 0.0, 0.0, 0.0, 0
+    for dy in range(lags + 1):
+        for dx in range(-lags if dy else 0, lags + 1):
+            c = residual_covariance(sampled, dy, dx)
+            if k == 0:
+                report[4] = np.sqrt(c * n * m / max(template.total - 8.0, 1.0))
+            else:
+                c *= 2.0
+            uu, uv, vv = (
+                uu + c * template.influence[k, 0],
+                uv + c * template.influence[k, 1],
+                vv + c * template.influence[k, 2],
+            )
+            k += 1
+    white = report[4] ** 2 * (template.influence[0, 0] + template.influence[0, 2])
+    xx, xy, yx, yy = pose[2], pose[3], pose[4], pose[5]
+    trace = (xx * xx + yx * yx) * uu + 2.0 * (xx * xy + yx * yy) * uv + (xy * xy + yy * yy) * vv
+    report[2] = np.sqrt(0.5 * max(trace, 0.1 * white)) / abs(gain)
+
+
+@njit(nogil=True, cache=True)
+def iterate(image, template, pose, limits, report):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN201
+    """Run the iterations from `pose`, which is replaced; return the outcome and fill the report.
+
+    report: iterations, ZNCC, sigma, gain, residual.
+    """
+    n, m = template.values.shape
+    start = pose.copy()
+    sampled, sums, step, local = np.empty((n, m), np.float32), np.empty(9), np.empty(6), pose.copy()
+    crop, x0, y0 = np.empty((0, 0), np.float32), 0, 0
+    outcome = 1
+    report[0] = 0
+    while report[0] < limits[0] and outcome == 1:
+        problem = place(image, pose, start, limits[2], template)
+        if problem:
+            return problem
+        left, top, right, bottom = bounds(pose, template)
+        fits = left - x0 >= 1.0 and top - y0 >= 1.0
+        if not (fits and right - x0 < crop.shape[1] - 2.01 and bottom - y0 < crop.shape[0] - 2.01):
+            x0, y0 = int(left) - MARGIN, int(top) - MARGIN
+            crop = np.empty((int(bottom) + MARGIN + 3 - y0, int(right) + MARGIN + 3 - x0), np.float32)
+            spline_crop(image, template.taps, x0, y0, crop)
+        local[:] = pose
+        local[0], local[1] = pose[0] - x0, pose[1] - y0
+        sample_and_sum(crop, local, template, sampled, sums)
+        moved = gauss_newton_step(template, sums, step)
+        if moved < 0.0:
+            return 4
+        compose(pose, step, template.rigid)
+        report[0] += 1
+        if moved < limits[1]:
+            outcome = 0
+    if outcome == 0:
+        judge(template, sampled, sums, pose, report)
+    return outcome

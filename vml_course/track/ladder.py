@@ -1,0 +1,158 @@
+"""Finding one block in the next picture: the likely place first, then ever wider.
+
+Rungs: (1) where its past says, (2) where it was, (3) a search of the region around the expected place with
+rotations, (4) the same over twice the region. The climb ends as soon as a match is as good as this point's
+matches usually are; otherwise the best acceptable one counts, and with none the point is lost. A lost point
+is looked for again in the following pictures, in a region that grows, always with the reference block.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vml_course.correlate.icgn import Match, Outcome, match
+from vml_course.correlate.search import search
+from vml_course.correlate.template import Template
+from vml_course.model.arrays import FloatArray
+from vml_course.model.frame import Luma
+from vml_course.track.prediction import predict
+
+ANGLES_RAD = np.radians([0.0, -10.0, 10.0, -20.0, 20.0, -30.0, 30.0])
+USUAL_DROP = 0.15  # of ZNCC below its usual value, before another place is tried as well
+MEMORY = 0.7  # share of the past in the usual ZNCC
+DETERMINANT = (0.6, 1.6)  # change of area that a rigid thing in perspective can show
+REFINED = 3  # candidates of a search that are worth refining
+PULL_IN_PX = 12.0  # a candidate that moves further was another place
+
+
+class Rules(NamedTuple):
+    """When a match counts."""
+
+    search_radius_px: float
+    zncc_lost: float
+    zncc_far: float
+    max_iterations: int
+    give_up_frames: int
+
+
+@dataclass(frozen=True, eq=False)
+class Reference:
+    """A point's block in the first picture.
+
+    Attributes
+    ----------
+    template : Template
+    block : float32 array, shape (n, m)
+        Its grey levels.
+    sigma_px : float
+        Standard deviation of a coordinate that the block's noise leads one to expect.
+    """
+
+    template: Template
+    block: NDArray[np.float32]
+    sigma_px: float
+
+
+@dataclass(frozen=True, eq=False)
+class Past:
+    """What is remembered of a point.
+
+    Attributes
+    ----------
+    poses : tuple of float arrays, shape (6,)
+        The newest first, at most three, of consecutive pictures.
+    steady : int
+        Pictures in a row in which it was where it was expected.
+    lost : int
+        Pictures since it was last seen.
+    usual_zncc : float
+    """
+
+    poses: tuple[FloatArray, ...]
+    steady: int = 0
+    lost: int = 0
+    usual_zncc: float = 1.0
+
+
+class Guess(NamedTuple):
+    """A pose to refine, how far it may pull, and what makes its match acceptable."""
+
+    pose: FloatArray
+    pull_px: float
+    radius_px: float
+    least_zncc: float
+    rung: int
+
+
+def follow(reference: Reference, past: Past, luma: Luma, rules: Rules) -> tuple[Past, Match | None]:
+    """Find a point in the next picture; None when it is lost there."""
+    if past.lost >= rules.give_up_frames:
+        return past, None
+    expected = predict(past.poses, past.steady, past.lost + 1)
+    best, rung = None, 0
+    for guess in guesses(reference, past, expected, luma, rules):
+        found = match(
+            luma,
+            reference.template,
+            guess.pose,
+            max_iterations=rules.max_iterations,
+            max_shift_px=guess.pull_px,
+        )
+        if is_acceptable(found, expected, guess) and (best is None or found.zncc > best.zncc):
+            best, rung = found, guess.rung
+        if best is not None and best.zncc >= past.usual_zncc - USUAL_DROP:
+            break
+    return (_lost(past), None) if best is None else (_found(past, best, is_expected=rung == 1), best)
+
+
+def guesses(reference: Reference, past: Past, expected: FloatArray, luma: Luma, rules: Rules) -> Iterator[Guess]:
+    """Yield the rungs one by one; a search is only made when its rung is reached."""
+    near = rules.search_radius_px
+    yield Guess(expected, near, near, rules.zncc_lost, 1)
+    if np.abs(expected - past.poses[0]).max() > 0.5:
+        yield Guess(past.poses[0], near, near + np.abs(expected - past.poses[0])[:2].max(), rules.zncc_lost, 2)
+    offset = (reference.template.left, reference.template.top)
+    centre = expected if past.lost else np.concatenate([expected[:2], past.poses[0][2:]])
+    height, width = luma.shape
+    centre = np.concatenate([np.clip(centre[:2], 0.0, [width - 1.0, height - 1.0]), centre[2:]])
+    for rung, radius in enumerate(search_radii(near, past.lost), start=3):
+        least = rules.zncc_lost if radius <= near else rules.zncc_far
+        reach = radius + np.abs(expected - centre)[:2].max() + PULL_IN_PX
+        for candidate in search(luma, reference.block, offset, centre, radius, ANGLES_RAD)[:REFINED]:
+            yield Guess(candidate.pose, PULL_IN_PX, reach, least, rung)
+
+
+def search_radii(radius_px: float, lost: int) -> tuple[float, ...]:
+    """Return the half sides of the regions to search: growing with the pictures since the point was seen."""
+    if lost:
+        return (radius_px * min(2.0 + 0.5 * lost, 6.0),)
+    return (radius_px, 2.0 * radius_px)
+
+
+def is_acceptable(found: Match, expected: FloatArray, guess: Guess) -> bool:
+    """Whether a match keeps the rules: converged, alike, near, not torn."""
+    if found.outcome is not Outcome.CONVERGED or not found.zncc >= guess.least_zncc:
+        return False
+    xx, xy, yx, yy = found.pose[2:]
+    is_near = bool(np.abs(found.pose - expected)[:2].max() <= guess.radius_px)
+    return is_near and DETERMINANT[0] <= xx * yy - xy * yx <= DETERMINANT[1]
+
+
+def _lost(past: Past) -> Past:
+    return replace(past, lost=past.lost + 1, steady=0)
+
+
+def _found(past: Past, found: Match, *, is_expected: bool) -> Past:
+    """Return the past with one more sighting; after a gap the velocity is the mean over it."""
+    before = past.poses
+    if past.lost:
+        gap = past.lost + 1
+        mean_move = (found.pose[:2] - before[0][:2]) / gap
+        before = (np.concatenate([found.pose[:2] - mean_move, found.pose[2:]]),)
+    usual = MEMORY * past.usual_zncc + (1.0 - MEMORY) * found.zncc
+    return Past((found.pose, *before)[:3], past.steady + 1 if is_expected else 0, 0, usual)

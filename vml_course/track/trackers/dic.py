@@ -1,0 +1,171 @@
+"""Digital image correlation: a block of the first picture, matched with an affine warp in every other one."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from typing import ClassVar, final
+
+import numpy as np
+
+from vml_course.correlate.icgn import Match
+from vml_course.correlate.template import (
+    WARPS,
+    build_template,
+    corner_sigma_px,
+    cut_patch,
+    first_pixel,
+    projected_hessian,
+    read_only,
+    solving_matrix,
+)
+from vml_course.correlate.texture import noise_grey, texture_of
+from vml_course.errors import SeedError
+from vml_course.model.arrays import FloatArray
+from vml_course.model.frame import Luma
+from vml_course.model.quantity import check_quantities, quantity
+from vml_course.model.track import Sighting, Status
+from vml_course.track.ladder import Past, Reference, Rules, follow
+
+LARGEST_CORNER_SIGMA_PX = 0.25  # beyond this a freedom of the warp is noise: take the next smaller warp
+UPRIGHT = np.array([1.0, 0.0, 0.0, 1.0])
+
+
+@dataclass(frozen=True, eq=False)
+class DicState:
+    """What `Dic` remembers: the reference blocks, which never change, and each point's past."""
+
+    references: tuple[Reference, ...]
+    pasts: tuple[Past, ...]
+
+
+@final
+@dataclass(frozen=True)
+class Dic:
+    """The paper's method (section 3.3), with the warp, criterion and solver that today's best use.
+
+    Six-parameter affine warp, zero-normalised criterion (blind to gain and offset of the light),
+    inverse-compositional Gauss-Newton, cubic B-splines; the reference is always the first picture, so
+    nothing drifts.
+
+    A block that cannot hold six parameters gets fewer: the warp is the first of affine, rigid, translation
+    whose corners the block's noise would not move by more than 0.25 px (one standard deviation).
+    """
+
+    name: ClassVar[str] = "dic"
+    title: ClassVar[str] = "digital image correlation: turning, blurring, bending light; the default"
+
+    block: float = quantity(60, "px", 11, 301, about="side of the block that is matched", whole=True)
+    search_radius: float = quantity(40.0, "px", 2.0, 500.0, about="how far from its expected place a point may be")
+    zncc_lost: float = quantity(0.6, "", 0.3, 0.99, about="least correlation of a match")
+    zncc_far: float = quantity(0.7, "", 0.3, 0.99, about="least correlation of a match beyond the search radius")
+    max_iterations: float = quantity(40, "", 3, 200, about="iterations before a match is given up", whole=True)
+    give_up_frames: float = quantity(
+        15, "", 1, 100000, about="pictures after which a lost point stays lost", whole=True
+    )
+    blur: float = quantity(0.0, "px", 0.0, 3.0, about="Gaussian blur of both pictures before matching")
+
+    def __post_init__(self) -> None:
+        check_quantities(self)
+
+    @property
+    def settings(self) -> Mapping[str, str | int | float]:
+        """How it tracks, as written into the track's file."""
+        return {"method": self.name, **asdict(self)}
+
+    def start(self, luma: Luma, seeds_px: FloatArray) -> tuple[DicState, Sighting]:
+        """Learn the blocks about the points, shape (p, 2), px, from the first picture.
+
+        Raises
+        ------
+        SeedError
+            When a block does not lie inside the picture, or has no texture or only an edge.
+        """
+        points = np.asarray(seeds_px, dtype=np.float64).reshape(-1, 2)
+        references = tuple(self._learn(luma, f"seed {k + 1}", x, y) for k, (x, y) in enumerate(points))
+        pasts = tuple(Past((np.concatenate([point, UPRIGHT]),)) for point in points)
+        return DicState(references, pasts), _first_sighting(references, points)
+
+    def step(self, state: DicState, luma: Luma) -> tuple[DicState, Sighting]:
+        """Find the points in the next picture."""
+        picture = read_only(luma)
+        rules = Rules(
+            self.search_radius, self.zncc_lost, self.zncc_far, int(self.max_iterations), int(self.give_up_frames)
+        )
+        followed = [
+            follow(reference, past, picture, rules)
+            for reference, past in zip(state.references, state.pasts, strict=True)
+        ]
+        pasts, matches = zip(*followed, strict=True) if followed else ((), ())
+        return DicState(state.references, tuple(pasts)), _sighting(matches)
+
+    def _learn(self, luma: Luma, name: str, x: float, y: float) -> Reference:
+        size = int(self.block)
+        _check_fits(luma, name, (x, y), size)
+        patch = cut_patch(luma, (x, y), size, self.blur)
+        _check_texture(patch.values, name, (x, y))
+        noise = noise_grey(patch.values)
+        hessian = projected_hessian(patch)
+        template = build_template(patch, choose_warp(hessian, noise, 0.5 * (size - 1)), blur_px=self.blur)
+        sigma = np.sqrt(np.trace(template.solve[:2, :2])) * noise  # sqrt(2): both pictures are noisy; rms of x and y
+        return Reference(template, patch.values.astype(np.float32), float(sigma))
+
+
+METHOD = Dic
+
+
+def choose_warp(hessian: FloatArray, noise: float, half_px: float) -> str:
+    """Return the most general warp that a block can hold, from its Hessian (6, 6); see `Dic` for the rule."""
+    for warp in WARPS:
+        try:
+            sigma = corner_sigma_px(solving_matrix(hessian, warp), noise, half_px)
+        except np.linalg.LinAlgError:
+            continue
+        if sigma <= LARGEST_CORNER_SIGMA_PX:
+            return warp
+    return "translation"
+
+
+def _check_fits(luma: Luma, name: str, point: tuple[float, float], size: int) -> None:
+    height, width = luma.shape
+    half = 0.5 * (size - 1)
+    expected = f"a point from ({half:g}, {half:g}) to ({width - 1 - half:g}, {height - 1 - half:g}) px"
+    hint = f"The block of {size} px must lie inside the picture: move the point or take a smaller block."
+    if not np.all(np.isfinite(point)):
+        raise SeedError(name, expected, f"({point[0]:g}, {point[1]:g})", hint)
+    first = [first_pixel(c, size) for c in point]
+    if min(first) < 0 or first[0] + size > width or first[1] + size > height:
+        raise SeedError(name, expected, f"({point[0]:g}, {point[1]:g})", hint)
+
+
+def _check_texture(block: FloatArray, name: str, point: tuple[float, float]) -> None:
+    texture = texture_of(block)
+    expected = f"a block with texture around ({point[0]:g}, {point[1]:g})"
+    if texture.strongest <= texture.insignificant:
+        raise SeedError(name, expected, "a blank one (no texture)", "Move the point to a spot with a pattern.")
+    if texture.weakest <= texture.insignificant:
+        raise SeedError(name, expected, "only an edge, along which it slides", "Take a corner or a larger block.")
+
+
+def _first_sighting(references: tuple[Reference, ...], points: FloatArray) -> Sighting:
+    p = len(references)
+    return Sighting(
+        xy_px=points,
+        sigma_px=np.array([reference.sigma_px for reference in references]),
+        zncc=np.ones(p),
+        iterations=np.zeros(p, np.int64),
+        status=np.full(p, Status.AUTO, np.int8),
+        gradient=np.zeros((p, 4)),
+    )
+
+
+def _sighting(matches: tuple[Match | None, ...]) -> Sighting:
+    p = len(matches)
+    xy, sigma, zncc = np.full((p, 2), np.nan), np.full(p, np.nan), np.full(p, np.nan)
+    gradient, iterations = np.full((p, 4), np.nan), np.zeros(p, np.int64)
+    status = np.full(p, Status.LOST, np.int8)
+    for k, found in enumerate(matches):
+        if found is not None:
+            xy[k], gradient[k] = found.pose[:2], found.pose[2:] - UPRIGHT
+            sigma[k], zncc[k], iterations[k], status[k] = found.sigma_px, found.zncc, found.iterations, Status.AUTO
+    return Sighting(xy, sigma, zncc, iterations, status, gradient)
