@@ -54,10 +54,35 @@ class Canvas:
 
     def fill(self, distance_m: Plane, rgb: Colour, opacity: float = 1.0) -> None:
         """Paint where the signed distance is negative; an edge covers a sample in proportion."""
-        cover = (opacity * np.clip(0.5 - distance_m * self.samples_per_m, 0.0, 1.0)).astype(np.float32)
-        rest = 1.0 - cover
-        self.opacity[...] = self.opacity * rest + cover
-        self.colour[...] = self.colour * rest[..., None] + cover[..., None] * np.array(ycbcr(rgb), dtype=np.float32)
+        cover = opacity * np.clip(0.5 - distance_m * self.samples_per_m, 0.0, 1.0)
+        rows, columns = (np.flatnonzero(cover.any(axis=axis)) for axis in (1, 0))
+        if not len(rows):
+            return
+        where = slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
+        part, paint = cover[where], np.array(ycbcr(rgb), dtype=np.float32)
+        self.opacity[where] += part * (1.0 - self.opacity[where])
+        for plane in range(3):
+            self.colour[(*where, plane)] += part * (paint[plane] - self.colour[(*where, plane)])
+
+    def near(self, low_m: tuple[float, float], high_m: tuple[float, float]) -> Canvas:
+        """Return the part of this canvas between two corners, to draw small things quickly; it shares its samples."""
+        rows, columns = self.opacity.shape
+        x0, x1 = np.clip([self._column(low_m[0]) - 2, self._column(high_m[0]) + 3], 0, columns)
+        y0, y1 = np.clip([self._row(high_m[1]) - 2, self._row(low_m[1]) + 3], 0, rows)
+        return Canvas(
+            self.colour[y0:y1, x0:x1],
+            self.opacity[y0:y1, x0:x1],
+            self.x_m[:, x0:x1],
+            self.y_m[y0:y1],
+            self.samples_per_m,
+            (self.origin[0] - float(x0), self.origin[1] - float(y0)),
+        )
+
+    def _column(self, x_m: float) -> int:
+        return round(self.origin[0] + x_m * self.samples_per_m)
+
+    def _row(self, y_m: float) -> int:
+        return round(self.origin[1] - y_m * self.samples_per_m)
 
     def lighten(self, change: Plane, inside_m: Plane | None = None) -> None:
         """Add grey levels to the brightness, where the signed distance is negative."""

@@ -23,7 +23,7 @@ def pair_mass(I: float, m: float, a: float) -> float:  # noqa: E741, N803 - text
     return 1.0 / (a * a / I + 1.0 / m)
 
 
-def pinned_impact(  # noqa: PLR0913, PLR0917 - the textbook's letters
+def pinned_impact(
     I: float,  # noqa: E741, N803
     m: float,
     a: float,

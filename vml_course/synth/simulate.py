@@ -44,7 +44,7 @@ def simulate(scene: Scene, camera: Camera, seed: int, *, refine: int = 1) -> Tru
     """
     clock = scene.clock(camera.fps, refine)
     stage = scene.build(clock)
-    start = (stage.head.body.angle, stage.head.body.angular_velocity)
+    start = (stage.striker.angle, stage.striker.angular_velocity)
     run = run_stage(stage, clock)
     counted = _hold(scene, contact_checks(run))
     if run.contact is None:  # cannot happen while contacts are counted; tells the type checker so

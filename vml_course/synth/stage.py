@@ -90,10 +90,10 @@ class Stage:
     Attributes
     ----------
     space : pymunk.Space
-    bodies : dict of str to pymunk.Body
+    striker, struck : pymunk.Body
         The moving bodies, in the order of `Truth.bodies`.
     head, ball : pymunk.Shape
-        The two shapes that may meet.
+        The shapes of the two that may meet.
     torque : callable
         On the striker, N m, as a function of its angle.
     weight_N : (float, float)
@@ -101,14 +101,15 @@ class Stage:
     """
 
     space: pymunk.Space
-    bodies: dict[str, pymunk.Body]
+    striker: pymunk.Body
+    struck: pymunk.Body
     head: pymunk.Shape
     ball: pymunk.Shape
     torque: Torque
     weight_N: tuple[float, float]  # noqa: N815 - the unit is newton
 
 
-def pinned_stage(strike: PinnedStrike, impact_s: float, names: tuple[str, str]) -> Stage:
+def pinned_stage(strike: PinnedStrike, impact_s: float) -> Stage:
     """Set up a strike so that the bodies meet at angle 0, with the promised velocity, at `impact_s`."""
     space = pymunk.Space()
     space.iterations, space.gravity, space.collision_slop, space.collision_bias = 30, (0, 0), 0.1, 1.0
@@ -122,8 +123,8 @@ def pinned_stage(strike: PinnedStrike, impact_s: float, names: tuple[str, str]) 
         strike.inertia_kg_m2, strike.torque, (0.0, strike.omega_before_rad_s), np.array([-impact_s / 2, -impact_s])
     )
     striker.angle, striker.angular_velocity = start[-1].tolist()
-    bodies = dict(zip(names, (striker, ball), strict=True))
-    return Stage(space, bodies, head, skin, strike.torque, (0.0, -strike.ball_mass_kg * GRAVITY_M_S2))
+    weight = (0.0, -strike.ball_mass_kg * GRAVITY_M_S2)
+    return Stage(space, striker, ball, head, skin, strike.torque, weight)
 
 
 def _striker(space: pymunk.Space, strike: PinnedStrike) -> tuple[pymunk.Body, pymunk.Shape]:

@@ -75,7 +75,7 @@ class _Recorder:
     def pre_solve(self, arbiter: pymunk.Arbiter, *_: object) -> None:
         if self.first or not self._is_ours(arbiter):
             return
-        striker, sign = self.stage.head.body, self._sign(arbiter)
+        striker, sign = self.stage.striker, self._sign(arbiter)
         half_kick(self.stage, self.half_step_s, ball=False)
         striker.torque = 0.0
         points = arbiter.contact_point_set
@@ -119,10 +119,10 @@ def run_stage(stage: Stage, clock: Clock) -> Run:
 
 
 def _advance(stage: Stage, recorder: _Recorder, step: int, dt: float) -> None:
-    striker, was_struck = stage.head.body, bool(recorder.first)
+    striker, was_struck = stage.striker, bool(recorder.first)
     striker.torque = stage.torque(striker.angle + striker.angular_velocity * dt)
     if was_struck:
-        stage.ball.body.force = stage.weight_N
+        stage.struck.force = stage.weight_N
     recorder.step = step
     stage.space.step(dt)
     if recorder.first and not was_struck:
@@ -131,7 +131,7 @@ def _advance(stage: Stage, recorder: _Recorder, step: int, dt: float) -> None:
 
 def half_kick(stage: Stage, time_s: float, *, ball: bool) -> None:
     """Change the velocities by what torque and, for a struck ball, weight do in `time_s`."""
-    striker, struck = stage.head.body, stage.ball.body
+    striker, struck = stage.striker, stage.struck
     striker.angular_velocity += stage.torque(striker.angle) * time_s / striker.moment
     if ball:
         struck.velocity += pymunk.Vec2d(*stage.weight_N) * (time_s / struck.mass)
@@ -139,9 +139,9 @@ def half_kick(stage: Stage, time_s: float, *, ball: bool) -> None:
 
 def state_of(stage: Stage) -> State:
     """Return the velocities as pymunk holds them."""
-    striker, ball = stage.head.body, stage.ball.body
-    return State(striker.angle, striker.angular_velocity, tuple(ball.velocity), ball.angular_velocity)
+    striker, ball = stage.striker, stage.struck
+    return State(striker.angle, striker.angular_velocity, (ball.velocity.x, ball.velocity.y), ball.angular_velocity)
 
 
 def _poses(stage: Stage) -> list[tuple[float, float, float]]:
-    return [(*body.position, body.angle) for body in stage.bodies.values()]
+    return [(*body.position, body.angle) for body in (stage.striker, stage.struck)]

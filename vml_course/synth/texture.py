@@ -31,7 +31,7 @@ def normals(seed: int, name: str, shape: tuple[int, int]) -> Plane:
     """
     quarters = raw_bits(seed, name, shape[0] * shape[1]).view(np.uint16).reshape(*shape, 4)
     total = quarters.sum(axis=-1, dtype=np.int64)
-    return ((total - 2 * 65535) / (65536 * np.sqrt(1 / 3))).astype(np.float32)
+    return np.asarray((total - 2 * 65535) / (65536 * 3**-0.5), dtype=np.float32)
 
 
 def choose(seed: int, name: str, count: int, below: int) -> NDArray[np.int64]:

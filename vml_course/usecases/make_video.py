@@ -27,7 +27,7 @@ class MadeVideo:
     truth: Truth
 
 
-def make_video(  # noqa: PLR0913, PLR0917 - what is filmed, how, and where to
+def make_video(
     scene: Scene, camera: Camera, recording: Recording, seed: int, folder: Path, progress: Progress | None = None
 ) -> MadeVideo:
     """Write `video.mp4` (or `.avi`), `truth.json` and `truth.csv` into a folder.

@@ -79,7 +79,8 @@ def _dual(corners: FloatArray, middles: FloatArray) -> bool:
 
 def _turn(about_x: float, about_y: float) -> FloatArray:
     c, s, k, n = np.cos(about_x), np.sin(about_x), np.cos(about_y), np.sin(about_y)
-    return np.array([[1, 0, 0], [0, c, -s], [0, s, c]]) @ np.array([[k, 0, n], [0, 1, 0], [-n, 0, k]])
+    tip, yaw = np.array([[1, 0, 0], [0, c, -s], [0, s, c]]), np.array([[k, 0, n], [0, 1, 0], [-n, 0, k]])
+    return np.asarray(tip @ yaw)
 
 
 def _shade(on: Canvas, radius_m: float) -> Plane:

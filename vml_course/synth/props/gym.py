@@ -10,7 +10,7 @@ import numpy as np
 from vml_course.model.camera import Camera
 from vml_course.synth.canvas import Canvas, make_canvas
 from vml_course.synth.props.target import draw_pole
-from vml_course.synth.shapes import Point, box, disc, polygon, tapered
+from vml_course.synth.shapes import Point, box, polygon, tapered
 from vml_course.synth.texture import Plane, grain
 
 WALL = (150.0, 164.0, 168.0)
@@ -58,6 +58,7 @@ def _planks(on: Canvas, floor_m: float) -> Plane:
 def _draw_tee(on: Canvas, top_m: Point, floor_m: float) -> None:
     x, y = top_m
     base = floor_m - 0.014
+    on = on.near((x - 0.07, base - 0.02), (x + 0.07, y + 0.02))
     stem = [(x - 0.03, base), (x + 0.03, base), (x + 0.008, y + 0.004), (x - 0.008, y + 0.004)]
     on.fill(polygon(on, stem), TEE)
     on.fill(box(on, (x - 0.03, y - 0.012), (x + 0.03, y + 0.002)), TEE)
@@ -66,13 +67,13 @@ def _draw_tee(on: Canvas, top_m: Point, floor_m: float) -> None:
 
 def _draw_thigh(on: Canvas, seed: int) -> None:
     knee, hip = ((0.0, 0.0), 0.092), ((-0.16, 0.50), 0.13)
+    on = on.near((-0.5, -0.1), (0.2, 0.8))
     thigh = tapered(on, knee, hip)
     on.fill(thigh, SKIN)
     shape = (on.opacity.shape[0], on.opacity.shape[1])
     on.lighten(6.0 * grain(seed, "thigh", shape, 1.0), thigh)
     leg_of_shorts = [(-0.27, 0.19), (0.07, 0.26), (0.12, 0.8), (-0.42, 0.8)]
     on.fill(polygon(on, leg_of_shorts), SHORTS)
-    on.fill(disc(on, (0.0, 0.0), 0.0), SKIN)
 
 
 def _write(on: Canvas, text: str, at_m: Point) -> None:

@@ -73,7 +73,7 @@ class SoccerKick(Scene):
 
     def build(self, clock: Clock) -> Stage:
         """Set the kick up in pymunk."""
-        return pinned_stage(self.strike(), clock.impact_s, self.bodies)
+        return pinned_stage(self.strike(), clock.impact_s)
 
     def markers(self) -> tuple[Marker, ...]:
         """Return foot (centre of the striking circle), knee, shin and the ball's centre."""
