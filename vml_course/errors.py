@@ -131,3 +131,20 @@ class TooFewFramesError(InputError):
 
 class NoImpactError(InputError):
     """The struck body never changes its velocity."""
+
+
+class SeveralImpactsError(InputError):
+    """The struck body changes its velocity more than once near the impact."""
+
+
+class UpsideDownError(InputError):
+    """Bodies fall upwards: y was exported downwards, as pixels are."""
+
+
+class LengthMismatchError(InputError):
+    """A given length does not fit the path that was tracked."""
+
+    def __init__(self, name: str, found_m: float, found_sd_m: float, given_m: float) -> None:
+        self.found_m, self.found_sd_m, self.given_m = found_m, found_sd_m, given_m
+        found = f"about {found_m:.4g} ± {found_sd_m:.1g} m, the radius of the striker's path"
+        super().__init__(name, found, f"{given_m:g} m", "Check the length, the scale and which point was tracked.")

@@ -1,0 +1,61 @@
+"""A circle through the striker's path: where the pivot is, without trusting a mark on the knee."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from vml_course.model.arrays import FloatArray
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Arc:
+    """A fitted circle: centre (2,), radius with its standard deviation, scatter across the path; metres."""
+
+    centre_m: FloatArray
+    radius_m: float
+    radius_sd_m: float
+    scatter_m: float
+
+
+def fit_arc(xy_m: FloatArray, rounds: int = 30) -> Arc:
+    """Fit a circle to points, shape (n, 2), n >= 4, without NaN.
+
+    Starts from the algebraic fit (linear, but drawn inwards by noise) and minimises the distances across
+    the path by Gauss-Newton steps.
+    """
+    middle = xy_m.mean(axis=0)
+    x, y = (xy_m - middle).T
+    a, b, c = np.linalg.lstsq(np.stack([2 * x, 2 * y, np.ones_like(x)], axis=1), x**2 + y**2, rcond=None)[0]
+    unknown = np.array([a, b, np.sqrt(max(c + a**2 + b**2, 1e-12))])
+    for _ in range(rounds):
+        step = np.linalg.lstsq(*_linearised(x, y, unknown), rcond=None)[0]
+        unknown = unknown + step
+        if np.abs(step).max() < 1e-12:
+            break
+    slopes, rest = _linearised(x, y, unknown)
+    scatter = float(np.sqrt(rest @ rest / max(len(x) - 3, 1)))
+    radius_sd = scatter * float(np.sqrt(np.linalg.pinv(slopes.T @ slopes)[2, 2]))
+    return Arc(unknown[:2] + middle, float(unknown[2]), radius_sd, scatter)
+
+
+def centre_at_distance(xy_m: FloatArray, arc: Arc, radius_m: float, rounds: int = 20) -> FloatArray:
+    """Return the centre that fits best when the radius is known, on the side that the free fit says."""
+    middle = xy_m.mean(axis=0)
+    inward = (arc.centre_m - middle) / max(float(np.hypot(*(arc.centre_m - middle))), 1e-12)
+    centre = arc.centre_m + inward * (radius_m - arc.radius_m)
+    x, y = (xy_m - middle).T
+    for _ in range(rounds):
+        slopes, rest = _linearised(x, y, np.append(centre - middle, radius_m))
+        step = np.linalg.lstsq(slopes[:, :2], rest, rcond=None)[0]
+        centre = centre + step
+        if np.abs(step).max() < 1e-12:
+            break
+    return np.asarray(centre)
+
+
+def _linearised(x: FloatArray, y: FloatArray, unknown: FloatArray) -> tuple[FloatArray, FloatArray]:
+    away_x, away_y = x - unknown[0], y - unknown[1]
+    distance = np.maximum(np.hypot(away_x, away_y), 1e-12)
+    return np.stack([away_x / distance, away_y / distance, np.ones_like(x)], axis=1), distance - unknown[2]
