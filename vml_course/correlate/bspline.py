@@ -22,6 +22,9 @@ SMOOTH = (1 / 6, 4 / 6, 1 / 6)  # the cubic B-spline at its knots
 SLOPE = (-0.5, 0.0, 0.5)  # and its derivative
 f4 = np.float32
 
+# Division by zero gives infinity, as in numpy: no exception, and none of its code to compile.
+KERNEL = {"nogil": True, "cache": True, "error_model": "numpy"}
+
 
 def prefilter_taps(blur_px: float = 0.0) -> Float32Array:
     """Return the taps that turn samples into cubic B-spline coefficients, with a Gaussian blur folded in.
@@ -46,10 +49,12 @@ def prefilter_taps(blur_px: float = 0.0) -> Float32Array:
     if blur_px > 0.0:
         taps = np.convolve(taps, np.exp(-0.5 * (k / blur_px) ** 2), mode="same")
     half = taps[3 * REACH : 4 * REACH + 1]
-    return np.asarray(half / (2.0 * half[1:].sum() + half[0]), dtype=np.float32)
+    scaled = np.asarray(half / (2.0 * half[1:].sum() + half[0]), dtype=np.float32)
+    scaled.setflags(write=False)
+    return scaled
 
 
-@njit(nogil=True, cache=True)
+@njit(**KERNEL)
 def mirror(index: int, length: int) -> int:
     """Return `index` reflected about the first and the last pixel, as often as needed."""
     period = max(2 * length - 2, 1)
@@ -57,7 +62,7 @@ def mirror(index: int, length: int) -> int:
     return min(index, period - index)
 
 
-@njit(nogil=True, cache=True, fastmath=True)
+@njit(fastmath=True, **KERNEL)
 def filter_line(padded: Float32Array, taps: Float32Array, out: Float32Array) -> None:
     """Filter one line: float32 (n + 2 REACH,) -> float32 (n,)."""
     n = out.size
@@ -69,7 +74,7 @@ def filter_line(padded: Float32Array, taps: Float32Array, out: Float32Array) -> 
             out[j] += tap * (left[j] + right[j])
 
 
-@njit(nogil=True, cache=True, fastmath=True)
+@njit(fastmath=True, **KERNEL)
 def filter_down(rows: Float32Array, taps: Float32Array, out: Float32Array) -> None:
     """Filter columns, row by row: float32 (h + 2 REACH, w) -> float32 (h, w)."""
     h, w = out.shape
@@ -83,7 +88,7 @@ def filter_down(rows: Float32Array, taps: Float32Array, out: Float32Array) -> No
                 target[j] += tap * (above[j] + below[j])
 
 
-@njit(nogil=True, cache=True, fastmath=True)
+@njit(fastmath=True, **KERNEL)
 def spline_crop(image: NDArray[np.uint8], taps: Float32Array, x0: int, y0: int, out: Float32Array) -> None:
     """Write the spline coefficients of a crop whose top-left pixel is (x0, y0).
 
@@ -116,7 +121,7 @@ def spline_crop(image: NDArray[np.uint8], taps: Float32Array, x0: int, y0: int, 
     filter_down(rows, taps, out)
 
 
-@njit(nogil=True, cache=True, fastmath=True, inline="always")
+@njit(fastmath=True, inline="always", **KERNEL)
 def weights(t):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN201 - inlined into kernels, typed there by numba
     """Return the four cubic B-spline weights at the fraction t of a pixel."""
     s = f4(1) - t
@@ -127,7 +132,7 @@ def weights(t):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN201 - inlined
     return w0, w1, f4(1) - w0 - w1 - w3, w3
 
 
-@njit(nogil=True, cache=True, fastmath=True)
+@njit(fastmath=True, **KERNEL)
 def sample_row(flat, stride, x, y, step_x, step_y, index, lanes, out):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN201, PLR0913, PLR0917
     """Sample one straight row of points: out[j] = spline(x + j step_x, y + j step_y).
 

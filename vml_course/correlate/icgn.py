@@ -23,7 +23,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from vml_course.correlate.bspline import f4, sample_row, spline_crop
+from vml_course.correlate.bspline import KERNEL, f4, sample_row, spline_crop
 from vml_course.correlate.template import Template
 
 FloatArray = NDArray[np.float64]
@@ -99,7 +99,7 @@ def match(
     return Match(pose, Outcome(outcome), int(report[0]), report[1], report[2], report[3], report[4])
 
 
-@njit(nogil=True, cache=True, fastmath=True)
+@njit(fastmath=True, **KERNEL)
 def sample_and_sum(crop, local, template, sampled, sums):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN201
     """Sample the picture under the warped block and form the nine sums of a step, block mean removed.
 
@@ -109,7 +109,8 @@ def sample_and_sum(crop, local, template, sampled, sums):  # type: ignore[no-unt
     index, lanes = np.empty(m, np.int32), np.empty((8, m), np.float32)
     flat, stride = crop.ravel(), np.int32(crop.shape[1])
     left, mean = template.left, f4(template.mean)
-    sums[:] = 0.0
+    for k in range(9):
+        sums[k] = 0.0
     for i in range(n):
         down = template.top + i
         x, y = local[0] + local[2] * left + local[3] * down, local[1] + local[4] * left + local[5] * down
@@ -134,7 +135,7 @@ def sample_and_sum(crop, local, template, sampled, sums):  # type: ignore[no-unt
             sums[k] += s
 
 
-@njit(nogil=True, cache=True)
+@njit(**KERNEL)
 def bounds(pose, template):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN201
     """Return left, top, right, bottom of the upright box around the warped block, px."""
     n, m = template.values.shape
@@ -147,7 +148,7 @@ def bounds(pose, template):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN2
     return x - ex, y - ey, x + ex, y + ey
 
 
-@njit(nogil=True, cache=True)
+@njit(**KERNEL)
 def place(image, pose, start, max_shift, template):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN201
     """Return 0 when a block at this pose can be sampled, 2 when outside the image, 3 when it ran away."""
     for k in range(6):
@@ -161,7 +162,7 @@ def place(image, pose, start, max_shift, template):  # type: ignore[no-untyped-d
     return 0
 
 
-@njit(nogil=True, cache=True)
+@njit(**KERNEL)
 def compose(pose, step, rigid):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN201
     """Replace the warp W by W o w(step)^-1; a rigid one is brought back to a rotation."""
     a, b, c, d = 1.0 + step[2], step[3], step[4], 1.0 + step[5]
@@ -176,7 +177,7 @@ def compose(pose, step, rigid):  # type: ignore[no-untyped-def] # noqa: ANN001, 
     pose[1] -= pose[4] * step[0] + pose[5] * step[1]
 
 
-@njit(nogil=True, cache=True)
+@njit(**KERNEL)
 def gauss_newton_step(template, sums, step):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN201
     """Write the six parameters of a step; return how far a corner moves at most, -1 for a blank picture."""
     spread = sums[1] - sums[0] * sums[0] / template.total
@@ -199,7 +200,7 @@ def gauss_newton_step(template, sums, step):  # type: ignore[no-untyped-def] # n
     return moved
 
 
-@njit(nogil=True, cache=True, fastmath=True)
+@njit(fastmath=True, **KERNEL)
 def residual_covariance(residual, dy, dx):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN201
     """Return the mean product of a residual (n, m) with itself, shifted by (dy, dx)."""
     n, m = residual.shape
@@ -213,7 +214,7 @@ def residual_covariance(residual, dy, dx):  # type: ignore[no-untyped-def] # noq
     return total / ((n - dy) * (m - abs(dx)))
 
 
-@njit(nogil=True, cache=True)
+@njit(**KERNEL)
 def judge(template, sampled, sums, pose, report):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN201
     """Write ZNCC, sigma, gain and residual of the block at its last place; see the module's formula."""
     n, m = sampled.shape
@@ -245,7 +246,7 @@ def judge(template, sampled, sums, pose, report):  # type: ignore[no-untyped-def
     report[2] = np.sqrt(0.5 * max(trace, 0.1 * white)) / abs(gain)
 
 
-@njit(nogil=True, cache=True)
+@njit(**KERNEL)
 def iterate(image, template, pose, limits, report):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN201
     """Run the iterations from `pose`, which is replaced; return the outcome and fill the report.
 
@@ -267,7 +268,8 @@ def iterate(image, template, pose, limits, report):  # type: ignore[no-untyped-d
             x0, y0 = int(left) - MARGIN, int(top) - MARGIN
             crop = np.empty((int(bottom) + MARGIN + 3 - y0, int(right) + MARGIN + 3 - x0), np.float32)
             spline_crop(image, template.taps, x0, y0, crop)
-        local[:] = pose
+        for k in range(2, 6):
+            local[k] = pose[k]
         local[0], local[1] = pose[0] - x0, pose[1] - y0
         sample_and_sum(crop, local, template, sampled, sums)
         moved = gauss_newton_step(template, sums, step)
