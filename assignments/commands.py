@@ -30,8 +30,8 @@ def new(
 
     Example: vml course new dynamics-2026 --title "Dynamics, spring 2026"
     """
-    from assignments.course import new_course  # noqa: PLC0415 - `vml --help` need not wait for it
-    from assignments.load import assignment_ids  # noqa: PLC0415
+    from assignments.course import new_course
+    from assignments.load import assignment_ids
 
     course = new_course(folder, title)
     if as_json:

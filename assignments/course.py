@@ -26,6 +26,7 @@ _IGNORED = """\
 /.secret
 /gradebook*
 /handouts/
+/.making-*/
 /submissions/
 /feedback/
 /roster.csv

@@ -28,3 +28,12 @@ class NoVariantError(VmlError):
 
 class CourseError(InputError):
     """A course folder is not what it should be: no course, or its secret is not secret."""
+
+
+class NotMeasuredError(VmlError):
+    """The reference did not find the truth of a video within half of the student's tolerance."""
+
+    def __init__(self, symbol: str, truth: float, found: float, allowed: float) -> None:
+        self.symbol, self.truth, self.found, self.allowed = symbol, truth, found, allowed
+        off = abs(found / truth - 1) if truth else abs(found)
+        super().__init__(f"{symbol}: expected to be measured within {allowed:.2%}, got {off:.2%}.")

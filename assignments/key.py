@@ -104,7 +104,8 @@ def _along(impact: ImpactTruth, velocity_m_s: Any) -> float:
 
 def _further(truth: Truth) -> dict[str, float]:
     impact = truth.impact
-    leg_rad = float(np.interp(impact.time_s, truth.time_s, truth.leg_angle_rad))
+    since_s = impact.time_s - truth.time_s[impact.frame_before]  # never interpolated across the impact
+    leg_rad = float(truth.leg_angle_rad[impact.frame_before] + impact.omega_before_rad_s * since_s)
     path_rad = leg_rad + math.copysign(math.pi / 2, impact.omega_before_rad_s)
     normal_rad = math.atan2(impact.normal[1], impact.normal[0])
     return {

@@ -132,6 +132,8 @@ class Assignment:
         What differs from the scene's own camera and from the default recording.
     draws, derived, limits
         How the other parameters come about; a draw outside `limits` (low, high) is drawn again.
+    solve : mapping of str to str or float
+        Options of the impact model that the assignment declares, such as `drive = "none"`.
     points : tuple of str
         The points to track.
     handout_template : str
@@ -158,7 +160,8 @@ class Assignment:
     derived: tuple[Derived, ...] = ()
     limits: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     separation: Separation = Separation()
-    stick: Stick | None = None
+    stick: Stick = Stick("bar_left", "bar_right", "bar")
+    solve: Mapping[str, str | float] = field(default_factory=dict)
 
     @property
     def total_points(self) -> float:

@@ -16,6 +16,7 @@ from assignments.key import ANSWERABLE
 from assignments.mistakes import MISTAKES
 from assignments.model import Assignment, Draw
 from vml_course.errors import InputError, UnknownNameError, VmlError
+from vml_course.kinetics.impact_model import ImpactOptions
 from vml_course.kinetics.models import model_names
 from vml_course.model.quantity import Quantity, quantities_of
 from vml_course.model.recording import Recording
@@ -54,7 +55,7 @@ def _questions(assignment: Assignment) -> Mistakes:
 def _givens(assignment: Assignment) -> Mistakes:
     ids = [given.id for given in assignment.givens]
     yield from _twice("given", ids)
-    yield from _unknown("stick.given", [assignment.stick.given] if assignment.stick else [], ids)
+    yield from _unknown("stick.given", [assignment.stick.given], ids)
     units = [unit for spellings in UNITS.values() for unit in spellings]
     for given in assignment.givens:
         yield from _unknown(f"given.{given.id}.unit", [given.unit], units)
@@ -80,7 +81,8 @@ def _scene(assignment: Assignment, scene: type[Scene]) -> Mistakes:
     yield from _unknown("camera", assignment.camera, camera)
     for name, value in assignment.camera.items():
         yield from _inside(f"camera.{name}", value, camera.get(name))
-    yield from _recording(assignment.recording)
+    yield from _settings("recording", Recording, assignment.recording)
+    yield from _settings("solve", ImpactOptions, assignment.solve)
     told = [given.parameter for given in assignment.givens if given.parameter]
     yield from _unknown("given.parameter", told, drawable)
 
@@ -113,13 +115,14 @@ def _draw(draw: Draw, quantity: Quantity | None) -> Mistakes:
     yield from _inside(f"{key}.high", draw.high, quantity)
 
 
-def _recording(recording: Mapping[str, Any]) -> Mistakes:
-    yield from _unknown("recording", recording, [field.name for field in dataclasses.fields(Recording)])
-    known = {name: value for name, value in recording.items() if name in Recording.__dataclass_fields__}
+def _settings(key: str, record: type[Any], settings: Mapping[str, Any]) -> Mistakes:
+    """Check settings by making the laboratory's own record of them."""
+    names = [field.name for field in dataclasses.fields(record)]
+    yield from _unknown(key, settings, names)
     try:
-        Recording(**known)
+        record(**{name: value for name, value in settings.items() if name in names})
     except VmlError as error:
-        yield InputError("recording", "settings that can be recorded", str(error).rstrip("."))
+        yield InputError(key, "settings that can be used", str(error).rstrip("."))
 
 
 def _inside(key: str, value: float, quantity: Quantity | None) -> Mistakes:

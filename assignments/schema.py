@@ -98,6 +98,7 @@ class AssignmentFile(_Table):
     stick: StickTable
     camera: dict[str, Finite] = {}
     recording: dict[str, Finite | str] = {}
+    solve: dict[str, Finite | str] = {}
     fixed: dict[str, Finite] = {}
     draw: dict[str, DrawTable]
     derive: dict[str, DeriveTable] = {}
@@ -122,7 +123,19 @@ class AssignmentFile(_Table):
         )
 
 
-_SAME_NAME = ("title", "summary", "scene", "model", "points", "version", "camera", "recording", "fixed", "limits")
+_SAME_NAME = (
+    "title",
+    "summary",
+    "scene",
+    "model",
+    "points",
+    "version",
+    "camera",
+    "recording",
+    "solve",
+    "fixed",
+    "limits",
+)
 
 
 def _plain(table: _Table) -> dict[str, Any]:
