@@ -1,9 +1,165 @@
-"""The commands of this package."""
+"""The commands of this package: parse, one use case, print."""
 
 from __future__ import annotations
 
+import json
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
 import typer
+
+if TYPE_CHECKING:
+    from grader.usecases import Checked, Graded
+
+CourseOption = Annotated[Path, typer.Option("--course", metavar="DIR", help="The course folder.")]
+JsonOption = Annotated[bool, typer.Option("--json", help="Print the result as JSON.")]
 
 
 def register(app: typer.Typer) -> None:
     """Add this package's commands to `app`."""
+    app.command("handout")(handout)
+    app.command("grade")(grade)
+    app.command("check")(check)
+    book = typer.Typer(help="Look into the gradebook of a course.", no_args_is_help=True)
+    book.callback()(_group)
+    book.command("show")(show)
+    app.add_typer(book, name="gradebook")
+
+
+def _group() -> None:
+    """Look into the gradebook of a course."""
+
+
+def handout(
+    assignment: Annotated[str, typer.Argument(help="Name of the assignment, such as soccer-kick.")],
+    course: CourseOption,
+    student: Annotated[
+        list[str] | None, typer.Option("--student", metavar="PID", help="Only this pseudonym. Repeatable.")
+    ] = None,
+    workers: Annotated[int, typer.Option(min=1, max=64, help="Processes that render at the same time.")] = 1,
+    as_json: JsonOption = False,
+) -> None:
+    """Make every student of the roster a video, a workbook and a handout of their own.
+
+    Example: vml handout soccer-kick --course dynamics-2026 --workers 2
+    """
+    from assignments.course import open_course
+    from grader.usecases import hand_out_to
+
+    with _bar("handing out") as progress:
+        handed, students = hand_out_to(
+            open_course(course), assignment, student or (), workers=workers, progress=progress
+        )
+    if as_json:
+        _print_json([{**asdict(item), "folder": str(item.folder)} for item in handed])
+    else:
+        for item in handed:
+            name = students[item.student].name
+            typer.echo(f"{item.student}  {item.status:8}{name:24}{item.reason or item.folder}")
+        typer.echo(f"{sum(item.status != 'failed' for item in handed)} of {len(handed)} handed out.")
+    if any(item.status == "failed" for item in handed):
+        raise typer.Exit(1)
+
+
+def grade(
+    files: Annotated[list[Path], typer.Argument(help="Workbooks, or folders of workbooks.")],
+    course: CourseOption,
+    show_truth: Annotated[
+        bool, typer.Option("--show-truth/--hide-truth", help="Show students the true values, as after the due date.")
+    ] = True,
+    as_json: JsonOption = False,
+) -> None:
+    """Grade workbooks, keep the grades, write a feedback page for each student and one for the class.
+
+    Example: vml grade returned/*.xlsx --course dynamics-2026
+    """
+    from assignments.course import open_course
+    from grader.usecases import grade_files
+
+    opened = open_course(course)
+    with _bar("grading") as progress:
+        graded = grade_files(opened, files, show_truth=show_truth, progress=progress)
+    if as_json:
+        _print_json([{**asdict(g), "file": str(g.file), "feedback": g.feedback and str(g.feedback)} for g in graded])
+    else:
+        _print_graded(graded, opened.folder)
+    if any(item.needs_attention for item in graded):
+        raise typer.Exit(1)
+
+
+def _print_graded(graded: Iterable[Graded], folder: Path) -> None:
+    graded = list(graded)
+    for item in graded:
+        points = f"{item.points:g} / {item.out_of:g}" if item.status != "unreadable" else "–"
+        typer.echo(f"{item.pid or '–':10}{points:>12}  {item.status:11}{item.message or item.file.name}")
+    for assignment_id in dict.fromkeys(item.assignment_id for item in graded if item.assignment_id):
+        typer.echo(f"Class page: {folder / 'feedback' / assignment_id / 'class.html'}")
+
+
+def check(
+    workbook: Annotated[Path, typer.Argument(help="The workbook that you are about to hand in.")],
+    as_json: JsonOption = False,
+) -> None:
+    """Look at a workbook as the grader will: can it be read, is it complete. Says nothing about right or wrong.
+
+    Example: vml check workbook.xlsx
+    """
+    from grader.usecases import check_workbook
+
+    result = check_workbook(workbook)
+    if as_json:
+        _print_json({**asdict(result), "is_complete": result.is_complete})
+    else:
+        for answer in result.answers:
+            typer.echo(f"{_mark(answer)} {answer.label}: {answer.says}")
+        typer.echo(f"{'✓' if result.tracking_rows else '✗'} Tracking table: {result.tracking_rows} rows")
+        typer.echo("Complete: it can be handed in." if result.is_complete else "Not complete yet.")
+    if not result.is_complete:
+        raise typer.Exit(1)
+
+
+def _mark(answer: Checked) -> str:
+    return {"read": "✓", "no unit": "?", "unclear": "?"}.get(answer.status, "✗")
+
+
+def show(course: CourseOption, as_json: JsonOption = False) -> None:
+    """Show the effective grades of a course.
+
+    Example: vml gradebook show --course dynamics-2026
+    """
+    from assignments.course import open_course
+    from grader.gradebook import Gradebook
+
+    with Gradebook.open(open_course(course)) as book:
+        rows, students = book.rows(), book.students()
+    if as_json:
+        _print_json([asdict(row) for row in rows])
+        return
+    for row in rows:
+        who = f"{row.student.pid}  {row.student.name:24}{row.assignment_id:16}"
+        typer.echo(f"{who}{row.points:g} / {row.out_of:g}  attempt {row.attempt}  {row.status}")
+    graded = {row.student.pid for row in rows}
+    for student in students:
+        if student.pid not in graded:
+            typer.echo(f"{student.pid}  {student.name:24}{'nothing graded yet'}")
+
+
+# ---------------------------------------------------------------- shared
+
+
+def _print_json(result: Any) -> None:
+    typer.echo(json.dumps(result, ensure_ascii=False, indent=1))
+
+
+@contextmanager
+def _bar(title: str) -> Iterator[Callable[[int, int], None]]:
+    """Give a callback that draws a bar on standard error."""
+    from rich.console import Console
+    from rich.progress import Progress
+
+    with Progress(console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task(title, total=None)
+        yield lambda done, total: bar.update(task, completed=done, total=total)

@@ -1,0 +1,195 @@
+"""Small charts as numbers: a template draws them, so that text is escaped and every line can be restyled.
+
+Coordinates are those of an SVG with y down, rounded to a tenth.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from vml_course.model.arrays import FloatArray
+
+WIDTH, LEFT, RIGHT = 640.0, 58.0, 14.0
+TOP, MAIN, GAP, RESIDUAL, BOTTOM = 14.0, 190.0, 26.0, 64.0, 40.0
+
+
+@dataclass(frozen=True)
+class Tick:
+    """A place on an axis, with its label."""
+
+    at: float
+    label: str
+
+
+@dataclass(frozen=True)
+class CurveChart:
+    """A student's curve over the true one, and the difference beneath.
+
+    `truth` and `residual` are SVG point lists; `dots` are (x, y) of the student's numbers.
+    """
+
+    id: str
+    title: str
+    description: str
+    y_label: str
+    residual_label: str
+    truth: tuple[str, ...]
+    dots: tuple[tuple[float, float], ...]
+    residual: tuple[tuple[float, float], ...]
+    residual_zero: float
+    x_ticks: tuple[Tick, ...]
+    y_ticks: tuple[Tick, ...]
+    residual_ticks: tuple[Tick, ...]
+    impact_x: float | None
+    rows: tuple[tuple[str, ...], ...]
+
+    width, left, right_edge = WIDTH, LEFT, WIDTH - RIGHT
+    top, main_bottom = TOP, TOP + MAIN
+    residual_top, residual_bottom = TOP + MAIN + GAP, TOP + MAIN + GAP + RESIDUAL
+    height = TOP + MAIN + GAP + RESIDUAL + BOTTOM
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """What a chart is drawn from; all arrays have shape (n,), NaN where not measured."""
+
+    id: str
+    title: str
+    y_label: str
+    residual_unit: str
+    time_ms: FloatArray
+    own: FloatArray
+    true: FloatArray
+    residual: FloatArray
+    impact_ms: float | None = None
+
+
+def curve_chart(curve: Curve) -> CurveChart | None:
+    """Lay a curve out; None when there is nothing to draw."""
+    both = np.isfinite(curve.own) & np.isfinite(curve.true)
+    if both.sum() < 2 or np.ptp(curve.time_ms[both]) == 0:
+        return None
+    x_low, x_high = float(curve.time_ms[both].min()), float(curve.time_ms[both].max())
+    values = np.concatenate([curve.own[both], curve.true[both]])
+    y_ticks = nice_ticks(float(values.min()), float(values.max()), 5)
+    reach = float(np.abs(curve.residual[both]).max()) or 1e-9
+    residual_ticks = nice_ticks(-reach, reach, 2)
+    x = _Scale(x_low, x_high, LEFT, WIDTH - RIGHT)
+    y = _Scale(y_ticks[0], y_ticks[-1], TOP + MAIN, TOP)
+    r = _Scale(residual_ticks[0], residual_ticks[-1], TOP + MAIN + GAP + RESIDUAL, TOP + MAIN + GAP)
+    impact = curve.impact_ms
+    return CurveChart(
+        id=curve.id,
+        title=curve.title,
+        description=_description(curve, both),
+        y_label=curve.y_label,
+        residual_label=f"difference ({curve.residual_unit})",
+        truth=_runs(x, y, curve.time_ms, curve.true),
+        dots=_dots(x, y, curve.time_ms[both], curve.own[both]),
+        residual=_dots(x, r, curve.time_ms[both], curve.residual[both]),
+        residual_zero=r(0.0),
+        x_ticks=tuple(Tick(x(v), label(v)) for v in nice_ticks(x_low, x_high, 7) if x_low <= v <= x_high),
+        y_ticks=tuple(Tick(y(v), label(v)) for v in y_ticks),
+        residual_ticks=tuple(Tick(r(v), label(v)) for v in residual_ticks),
+        impact_x=x(impact) if impact is not None and x_low <= impact <= x_high else None,
+        rows=_rows(curve, both),
+    )
+
+
+def _description(curve: Curve, both: np.ndarray) -> str:
+    rms = math.sqrt(float((curve.residual[both] ** 2).mean()))
+    return (
+        f"{curve.title}, {int(both.sum())} of your numbers over the true curve. "
+        f"Root mean square difference: {rms:.2g} {curve.residual_unit}."
+    )
+
+
+def _runs(x: _Scale, y: _Scale, time_ms: FloatArray, values: FloatArray) -> tuple[str, ...]:
+    """Return the curve as point lists, interrupted where nothing is known."""
+    seen = np.isfinite(values)
+    breaks = np.flatnonzero(np.diff(seen.astype(int))) + 1
+    pieces = np.split(np.arange(values.size), breaks)
+    kept = [piece for piece in pieces if piece.size > 1 and seen[piece[0]]]
+    return tuple(" ".join(f"{x(time_ms[i]):g},{y(values[i]):g}" for i in piece) for piece in kept)
+
+
+def _dots(x: _Scale, y: _Scale, time_ms: FloatArray, values: FloatArray) -> tuple[tuple[float, float], ...]:
+    return tuple((x(t), y(v)) for t, v in zip(time_ms, values, strict=True))
+
+
+def _rows(curve: Curve, both: np.ndarray, most: int = 24) -> tuple[tuple[str, ...], ...]:
+    """Return the chart's numbers as a table, thinned evenly."""
+    at = np.flatnonzero(both)
+    at = at[np.unique(np.linspace(0, at.size - 1, min(most, at.size)).round().astype(int))]
+    columns = (curve.time_ms, curve.own, curve.true, curve.residual)
+    return tuple(tuple(f"{column[i]:.4g}" for column in columns) for i in at)
+
+
+class _Scale:
+    """A straight map from numbers to places in the picture."""
+
+    def __init__(self, low: float, high: float, start: float, end: float) -> None:
+        self._low, self._start = low, start
+        self._slope = (end - start) / (high - low) if high > low else 0.0
+
+    def __call__(self, value: float) -> float:
+        return round(float(self._start + (value - self._low) * self._slope), 1)
+
+
+def nice_ticks(low: float, high: float, count: int) -> tuple[float, ...]:
+    """Return round numbers that enclose `low` and `high`, about `count` steps apart.
+
+    >>> nice_ticks(0.13, 0.87, 4)
+    (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)
+    """
+    if not high > low:
+        high, low = low + abs(low) * 0.1 + 1e-9, low - abs(low) * 0.1 - 1e-9
+    rough = (high - low) / count
+    power = 10.0 ** math.floor(math.log10(rough))
+    step = power * next(factor for factor in (1, 2, 2.5, 5, 10) if factor * power >= rough * 0.999)
+    first, last = math.floor(low / step + 1e-9), math.ceil(high / step - 1e-9)
+    return tuple(float(f"{i * step:.12g}") for i in range(first, last + 1))
+
+
+def label(value: float) -> str:
+    """Return a number for an axis, with a real minus sign."""
+    return f"{value:.6g}".replace("-", "−")
+
+
+@dataclass(frozen=True)
+class Bar:
+    """One bar of a histogram, in the picture's coordinates."""
+
+    x: float
+    y: float
+    width: float
+    height: float
+    count: int
+    label: str
+
+
+def histogram(shares: Sequence[float], bins: int = 10, width: float = 560.0, height: float = 120.0) -> tuple[Bar, ...]:
+    """Lay out how many scores fall into each tenth; `shares` are 0 to 1.
+
+    >>> [bar.count for bar in histogram([0.05, 0.95, 1.0])]
+    [1, 0, 0, 0, 0, 0, 0, 0, 0, 2]
+    """
+    counts = [0] * bins
+    for share in shares:
+        counts[min(bins - 1, max(0, int(share * bins)))] += 1
+    highest, step = max(1, *counts), width / bins
+    return tuple(
+        Bar(
+            x=round(i * step + 3, 1),
+            y=round(height * (1 - count / highest), 1),
+            width=round(step - 6, 1),
+            height=round(height * count / highest, 1),
+            count=count,
+            label=f"{100 * i // bins}–{100 * (i + 1) // bins} %",
+        )
+        for i, count in enumerate(counts)
+    )

@@ -1,0 +1,24 @@
+"""What can be wrong with a course's gradebook or with what is asked of it."""
+
+from __future__ import annotations
+
+from vml_course.errors import InputError
+
+
+class UnknownVariantError(InputError):
+    """A workbook carries a variant code that this course never handed out."""
+
+    def __init__(self, name: str, code: str) -> None:
+        hint = "Is it another course's, or last year's? Hand in the workbook that came with your video."
+        super().__init__(name, "a variant code of this course", repr(code[:40]), hint)
+
+
+class NoKeyError(InputError):
+    """A student has no variant of an assignment."""
+
+    def __init__(self, assignment: str, pid: str) -> None:
+        super().__init__(pid, f"a variant of {assignment}", "none", "Hand it out first: vml handout.")
+
+
+class RosterError(InputError):
+    """A roster is no table of names and e-mail addresses."""

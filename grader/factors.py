@@ -1,0 +1,114 @@
+"""Common factors: velocities that are all wrong in the same way tell what was forgotten.
+
+Wrong units, scales and frame rates cancel in e and mostly in I, so they can only be seen in the velocities.
+"""
+
+from __future__ import annotations
+
+import math
+import statistics
+from collections.abc import Iterable, Mapping
+
+from assignments.model import AnswerKey, Question
+from grader.model import Factor, Submission
+from grader.stated import Stated, state
+
+SPREAD = 0.04
+"""Numbers share a factor when their ratios to the truth agree this well."""
+
+MATCH = 0.025
+"""A factor has a name when the name's factor is this close."""
+
+_RATES = (24.0, 25.0, 29.97, 30.0, 50.0, 59.94, 60.0, 120.0, 240.0, 480.0, 960.0, 1000.0)
+_DEG, _RPM = 180 / math.pi, 30 / math.pi
+_VAGUE = frozenset({"K7", "K8"})  # "your own scale (rate)" is said only where nothing more definite fits
+
+
+def find_factors(submission: Submission, key: AnswerKey, questions: Mapping[str, Question]) -> tuple[Factor, ...]:
+    """Return the named factors of the velocities and of the angular velocities, none where they are right."""
+    found = []
+    for dimension, names in (("velocity", _velocity_names), ("angular_velocity", _omega_names)):
+        asked = [question for question in questions.values() if question.dimension == dimension]
+        ratios = _ratios(submission, key, asked)
+        shared = _shared(ratios)
+        if shared is None:
+            continue
+        tolerance = max(question.tolerance for question in asked)
+        codes = _codes(shared[0], names(submission, key, questions), tolerance)
+        if codes:
+            found.append(Factor(codes, *shared))
+    return tuple(found)
+
+
+def _ratios(submission: Submission, key: AnswerKey, asked: Iterable[Question]) -> dict[str, float]:
+    truths = {q.id: key.values[q.id] for q in asked if q.id in key.values}
+    largest = max(map(abs, truths.values()), default=0.0)
+    ratios = {}
+    for question in asked:
+        stated = state(submission.answer(question.id), question)
+        truth = truths.get(question.id, 0.0)
+        if isinstance(stated, Stated) and stated.value != 0 and abs(truth) > 0.05 * largest:
+            ratios[question.id] = stated.value / truth
+    return ratios
+
+
+def _shared(ratios: Mapping[str, float]) -> tuple[float, tuple[str, ...]] | None:
+    """Return the factor that most of the numbers share, with their ids; None when fewer than two do."""
+    if len(ratios) < 2:
+        return None
+    middle = statistics.median_low(ratios.values())
+    ids = tuple(id_ for id_, ratio in ratios.items() if abs(ratio / middle - 1) <= SPREAD)
+    if len(ids) < 2 or 2 * len(ids) <= len(ratios):
+        return None
+    return statistics.fmean(ratios[id_] for id_ in ids), ids
+
+
+def _codes(factor: float, names: Iterable[tuple[str, float]], tolerance: float) -> tuple[str, ...]:
+    if abs(factor - 1) <= max(tolerance, MATCH):
+        return ()
+    fits = {
+        code: abs(factor / value - 1)
+        for code, value in names
+        if value and math.isfinite(value) and abs(factor / value - 1) <= MATCH and abs(value - 1) > 2 * MATCH
+    }
+    definite = tuple(dict.fromkeys(code for code in fits if code not in _VAGUE))
+    return definite or tuple(dict.fromkeys(fits))
+
+
+def _velocity_names(
+    submission: Submission, key: AnswerKey, questions: Mapping[str, Question]
+) -> Iterable[tuple[str, float]]:
+    scale = key.truth.get("px_per_m", math.nan)
+    fps = key.truth.get("fps", math.nan)
+    yield from (("K1", scale), ("K1b", scale**2), ("K1b", 1 / scale), ("K1c", scale / fps))
+    yield from (("K3", 3.28084), ("K3b", 39.3701), ("K4", 100.0), ("K4b", 1000.0), ("K6", -1.0))
+    yield from (("K5", 2.0), ("K5b", 0.5))
+    own_scale = _own(submission, questions, "px_per_m")
+    if own_scale:
+        yield "K7", scale / own_scale
+    yield from _rate_names(submission, key, questions)
+
+
+def _omega_names(
+    submission: Submission, key: AnswerKey, questions: Mapping[str, Question]
+) -> Iterable[tuple[str, float]]:
+    yield from (("K9", _DEG), ("K9b", _RPM), ("K9c", 1 / _DEG), ("K6", -1.0), ("K5", 2.0), ("K5b", 0.5))
+    yield from _rate_names(submission, key, questions)
+
+
+def _rate_names(
+    submission: Submission, key: AnswerKey, questions: Mapping[str, Question]
+) -> Iterable[tuple[str, float]]:
+    fps = key.truth.get("fps", math.nan)
+    yield from (("K2", rate / fps) for rate in _RATES if abs(rate / fps - 1) > SPREAD)
+    yield "K2b", 1 / fps
+    own_rate = _own(submission, questions, "fps")
+    if own_rate:
+        yield "K8", own_rate / fps
+
+
+def _own(submission: Submission, questions: Mapping[str, Question], question_id: str) -> float:
+    if question_id not in questions:
+        return 0.0
+    stated = state(submission.answer(question_id), questions[question_id])
+    return stated.value if isinstance(stated, Stated) else 0.0

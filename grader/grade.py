@@ -1,0 +1,139 @@
+"""From a submission and its key to a grade: a pure function."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+
+from assignments.model import AnswerKey, Assignment, Question
+from grader.checks import check_named
+from grader.diagnose import diagnose_answer, diagnose_factors, needs_diagnosis
+from grader.factors import find_factors
+from grader.hints import hint_for
+from grader.model import Asked, Diagnosis, Finding, Grade, Outcome, Submission
+
+GRADER_VERSION = "1"
+"""Goes into every run; raise it when the same submission could get other points."""
+
+TRACKING = Question("tracking", "Tracking table", "", "number", "", 0.0, "tracking", 0.0, "measurement")
+"""The question behind the tracking table, for an assignment that gives it no points of its own."""
+
+_EXPLAINED = ("e", "I")
+_FLAGS = {
+    "macros": "The workbook carries macros.",
+    "links": "The workbook has links to other files.",
+    "formula-to-other-workbook": "A formula points to another workbook.",
+    "hidden-sheet": "The workbook has a hidden sheet that is not ours.",
+}
+
+
+@dataclass(frozen=True)
+class _Judged:
+    """What has been judged so far."""
+
+    findings: tuple[Finding, ...] = ()
+    charged: frozenset[str] = frozenset()
+
+
+def grade(submission: Submission, key: AnswerKey, assignment: Assignment) -> Grade:
+    """Judge a submission.
+
+    Questions are judged after those that they need, so that an error costs points where it arose and nowhere else.
+
+    Parameters
+    ----------
+    submission : Submission
+    key : AnswerKey
+        Of the very variant that the workbook carries.
+    assignment : Assignment
+
+    Returns
+    -------
+    Grade
+        Findings in the order of the questions; `status` is `review` where something is unsure.
+    """
+    questions = {question.id: question for question in assignment.questions}
+    factors = find_factors(submission, key, questions)
+    judged = _Judged()
+    for question in in_order(assignment.questions):
+        asked = Asked(submission, key, question, judged.charged, factors, questions)
+        judged = _judge(judged, asked)
+    if not any(question.check == TRACKING.check for question in assignment.questions):
+        judged = _judge(judged, Asked(submission, key, TRACKING, judged.charged, factors, questions))
+    diagnosis = (*diagnose_factors(factors, questions), *_diagnoses(submission, key, questions, judged.findings))
+    return _sum_up(submission, assignment, _named(judged.findings, diagnosis), _with_marks(diagnosis, judged.findings))
+
+
+def in_order(questions: Iterable[Question]) -> Iterator[Question]:
+    """Yield questions after those they need; the order within a storey is kept, circles are broken."""
+    waiting, done = list(questions), set[str]()
+    while waiting:
+        known = {question.id for question in waiting}
+        ready = [q for q in waiting if not (set(q.needs) & known) - done - {q.id}] or waiting[:1]
+        yield from ready
+        done |= {question.id for question in ready}
+        waiting = [question for question in waiting if question.id not in done]
+
+
+def _judge(judged: _Judged, asked: Asked) -> _Judged:
+    try:
+        findings = check_named(asked.question.check)(asked)
+    except Exception:  # noqa: BLE001 - our own failure must never cost a student points
+        message = "The grader could not judge this; a person will."
+        points = asked.question.points
+        findings = (Finding(asked.question.id, "value", Outcome.UNSURE, points, points, message),)
+    paid = any(f.aspect == "value" and f.outcome in {Outcome.WRONG, Outcome.PARTIAL} for f in findings)
+    charged = judged.charged | ({asked.question.id} if paid else set())
+    return _Judged((*judged.findings, *findings), frozenset(charged))
+
+
+def _diagnoses(
+    submission: Submission, key: AnswerKey, questions: dict[str, Question], findings: Iterable[Finding]
+) -> Iterator[Diagnosis]:
+    findings = tuple(findings)
+    for quantity in _EXPLAINED:
+        outcomes = [(f.aspect, f.outcome) for f in findings if f.question_id == quantity]
+        if quantity in questions and needs_diagnosis(outcomes):
+            diagnosis = diagnose_answer(quantity, submission, key, questions)
+            if diagnosis is not None:
+                yield diagnosis
+
+
+def _named(findings: Iterable[Finding], diagnosis: Iterable[Diagnosis]) -> tuple[Finding, ...]:
+    """Write a mistake that alone explains an answer into the finding on its formula."""
+    codes = {d.subject: d.codes[0] for d in diagnosis if d.is_unique}
+    return tuple(
+        replace(f, mistake=codes.get(f.question_id, f.mistake)) if f.aspect == "formula" else f for f in findings
+    )
+
+
+def _with_marks(diagnosis: Iterable[Diagnosis], findings: Iterable[Finding]) -> tuple[Diagnosis, ...]:
+    """Add a hint for each mistake that only a single finding tells of, such as a scale turned over."""
+    diagnosis = tuple(diagnosis)
+    said = {code for d in diagnosis for code in d.codes}
+    extra = {f.mistake: f for f in reversed(tuple(findings)) if f.mistake and f.mistake not in said}
+    return (*(Diagnosis(f.question_id, (code,), hint_for((code,)), "truth") for code, f in extra.items()), *diagnosis)
+
+
+def _sum_up(
+    submission: Submission, assignment: Assignment, findings: tuple[Finding, ...], diagnosis: tuple[Diagnosis, ...]
+) -> Grade:
+    reasons = tuple(_reasons(submission, assignment, findings))
+    return Grade(
+        findings=findings,
+        points=round(sum(f.points for f in findings), 6),
+        out_of=round(sum(f.out_of for f in findings), 6),
+        status="review" if reasons else "ok",
+        diagnosis=diagnosis,
+        reasons=reasons,
+    )
+
+
+def _reasons(submission: Submission, assignment: Assignment, findings: Iterable[Finding]) -> Iterator[str]:
+    """Say why a person should look, one sentence each."""
+    if submission.assignment_id != assignment.id:
+        yield f"The workbook says that it belongs to {submission.assignment_id[:40]!r}."
+    yield from (_FLAGS[flag] for flag in submission.flags if flag in _FLAGS)
+    unsure = dict.fromkeys(f.question_id for f in findings if f.outcome is Outcome.UNSURE)
+    if unsure:
+        yield f"Unsure about {', '.join(unsure)}."

@@ -1,0 +1,160 @@
+"""The instructor's book: who has which variant, what is true of it, what came in, what it earned.
+
+A SQLite file in the course folder. Runs, keys and events are only added, never changed: the effective grade is
+what the newest run says.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from pathlib import Path
+from typing import Any, Self
+
+from sqlalchemy import Engine, insert, select
+
+from assignments import key as keys
+from assignments.course import Course
+from assignments.model import AnswerKey, Variant
+from grader import tables
+from grader.errors import NoKeyError, UnknownVariantError
+from grader.events import is_whole, note, now
+from grader.ledger import (
+    Row,
+    Student,
+    add_run,
+    effective_rows,
+    enrol,
+    open_engine,
+    students_of,
+    submission_of,
+    variant_of,
+)
+from grader.model import Grade, Submission
+from grader.roster import read_roster
+
+__all__ = ["Gradebook", "Row", "Student"]
+
+FILE = "gradebook.db"
+
+
+class Gradebook:
+    """An open gradebook; use it in a `with` block."""
+
+    def __init__(self, engine: Engine) -> None:
+        self._engine = engine
+        self._reader = engine.execution_options(reads=True)
+        tables.metadata.create_all(engine)
+
+    @classmethod
+    def open(cls, course: Course) -> Self:
+        """Open the gradebook of a course, and make it on first use."""
+        return cls(open_engine(course.folder / FILE))
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Let go of the file."""
+        self._engine.dispose()
+
+    # ------------------------------------------------------------ students
+
+    def students_from_roster(self, path: Path) -> tuple[Student, ...]:
+        """Take a class list in, and return its students in order; who is new gets a random pseudonym.
+
+        Raises
+        ------
+        FileMissingError, RosterError
+        """
+        enrolled = read_roster(path)
+        with self._engine.begin() as connection:
+            return tuple(enrol(connection, person) for person in enrolled)
+
+    def students(self) -> tuple[Student, ...]:
+        """Return all students in the order in which they came."""
+        with self._reader.connect() as connection:
+            return tuple(students_of(connection).values())
+
+    # ------------------------------------------------------------ keys
+
+    def keep_key(self, variant: Variant, key: AnswerKey) -> None:
+        """Keep what is true of a variant; the same key a second time changes nothing."""
+        text = json.dumps(keys.to_json(key), sort_keys=True)
+        sha = hashlib.sha256(text.encode()).hexdigest()
+        with self._engine.begin() as connection:
+            at = variant_of(connection, variant)
+            known = select(tables.answer_key.c.id).where(
+                tables.answer_key.c.variant_id == at, tables.answer_key.c.key_sha256 == sha
+            )
+            if connection.scalar(known) is None:
+                line = {"variant_id": at, "key_json": text, "key_sha256": sha, "created_at": now()}
+                connection.execute(insert(tables.answer_key).values(**line))
+                note(connection, "key-kept", variant.code, {"sha256": sha})
+
+    def key_for_code(self, code: str, name: str = "workbook") -> AnswerKey:
+        """Return the key of a variant by the code that its workbook carries.
+
+        Raises
+        ------
+        UnknownVariantError
+        """
+        found = self._newest_key(tables.variant.c.code == code)
+        if found is None:
+            raise UnknownVariantError(name, code)
+        return found
+
+    def key_of(self, assignment_id: str, pid: str) -> AnswerKey:
+        """Return the key of a student's variant.
+
+        Raises
+        ------
+        NoKeyError
+        """
+        found = self._newest_key((tables.assignment.c.slug == assignment_id) & (tables.student.c.pid == pid))
+        if found is None:
+            raise NoKeyError(assignment_id, pid)
+        return found
+
+    def has_key(self, assignment_id: str, pid: str) -> bool:
+        """Tell whether a student's variant is kept."""
+        return self._newest_key((tables.assignment.c.slug == assignment_id) & (tables.student.c.pid == pid)) is not None
+
+    def _newest_key(self, condition: Any) -> AnswerKey | None:
+        joined = tables.answer_key.join(tables.variant).join(tables.assignment).join(tables.student)
+        newest = select(tables.answer_key.c.key_json).select_from(joined).where(condition)
+        with self._reader.connect() as connection:
+            text = connection.scalar(newest.order_by(tables.answer_key.c.id.desc()).limit(1))
+        return keys.from_json(json.loads(text)) if text else None
+
+    # ------------------------------------------------------------ runs
+
+    def record_run(self, submission: Submission, grade: Grade) -> int:
+        """Record a grade, whole or not at all; return the attempt.
+
+        The same content again is the same attempt; the run is added all the same.
+        """
+        with self._engine.begin() as connection:
+            at, attempt = submission_of(connection, submission)
+            add_run(connection, at, submission.code, grade)
+            data = {"attempt": attempt, "points": grade.points, "file_sha256": submission.file_sha256}
+            note(connection, "graded", submission.code, data)
+        return attempt
+
+    def note_unreadable(self, file_sha256: str, reason: str) -> None:
+        """Record that a file came in that could not be graded."""
+        with self._engine.begin() as connection:
+            note(connection, "unreadable", file_sha256, {"reason": reason})
+
+    def rows(self, assignment_id: str | None = None) -> tuple[Row, ...]:
+        """Return the effective grades: of each student and assignment the newest run."""
+        with self._reader.connect() as connection:
+            return effective_rows(connection, assignment_id)
+
+    def is_whole(self) -> bool:
+        """Tell whether the chain of events is unbroken."""
+        with self._reader.connect() as connection:
+            return is_whole(connection)

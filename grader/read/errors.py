@@ -1,0 +1,24 @@
+"""The one thing that can go wrong in reading: this file cannot be graded as it is."""
+
+from __future__ import annotations
+
+from vml_course.errors import InputError
+
+SAVE_AS = "In Excel or LibreOffice choose File, Save As, Excel Workbook (.xlsx), and hand in that file."
+AGAIN = "Open it on your computer, save it again and hand in the new copy."
+OUR_TEMPLATE = "Type your answers into the workbook that came with your video and hand in that file."
+
+
+class UnreadableError(InputError):
+    """A file is no workbook that can be graded; the message says what it is and what to do."""
+
+    def __init__(self, name: str, got: str, hint: str = AGAIN) -> None:
+        super().__init__(name, "an Excel workbook (.xlsx)", got, hint)
+
+
+class RefusedError(Exception):
+    """A limit was passed inside a file; `read_workbook` turns it into an UnreadableError with the file's name."""
+
+    def __init__(self, got: str, hint: str = AGAIN) -> None:
+        self.got, self.hint = got, hint
+        super().__init__(got)

@@ -1,0 +1,171 @@
+"""Where the answers are: by defined name first, then by label, then at the template's own address."""
+
+from __future__ import annotations
+
+import hashlib
+import re
+import unicodedata
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+
+from assignments.model import Question
+from grader.model import Answer, Kind, Submission
+from grader.read.book import Book, BookCell, Sheet
+from grader.read.errors import OUR_TEMPLATE, UnreadableError
+from grader.read.sheet import Place, address_of, place_of
+from grader.read.table import read_table
+
+_LABEL_REACH = 4  # how many columns right of a label an answer may stand
+_META_SHEET = "_meta"
+
+
+@dataclass(frozen=True)
+class Claims:
+    """What a workbook says it is: the variant's code, the assignment's id, and the signature over them."""
+
+    code: str
+    assignment_id: str
+    signature: str = ""
+
+
+def claims_of(book: Book) -> Claims:
+    """Return what the hidden sheet says.
+
+    Raises
+    ------
+    UnreadableError
+        When the workbook was not made by us, or the sheet is gone.
+    """
+    sheet = next((sheet for sheet in book.sheets if sheet.name.lower().startswith(_META_SHEET)), None)
+    said = dict(_pairs(sheet)) if sheet else {}
+    code, assignment = said.get("variant_code", ""), said.get("assignment", "")
+    if not code or not assignment:
+        raise UnreadableError(book.name, "a workbook without our variant code", OUR_TEMPLATE)
+    return Claims(code, assignment, said.get("signature", ""))
+
+
+def _pairs(sheet: Sheet) -> Iterator[tuple[str, str]]:
+    """Yield each text of column A with the text beside it."""
+    for (row, column), cell in sheet.cells.items():
+        if column == 1 and cell.kind is Kind.TEXT:
+            yield cell.text.strip().lower(), sheet.at((row, 2)).text.strip()
+
+
+def find_submission(book: Book, questions: Iterable[Question], template: Mapping[str, str] | None = None) -> Submission:
+    """Return the answers to these questions and the tracking table.
+
+    Parameters
+    ----------
+    book : Book
+    questions : iterable of Question
+    template : mapping of str to str, optional
+        Where the template has its answer cells, as `Answers!C7` by question id.
+
+    Raises
+    ------
+    UnreadableError
+        When the workbook carries no variant code.
+    """
+    claims = claims_of(book)
+    answers = {q.id: _answer(book, q, (template or {}).get(q.id, "")) for q in questions}
+    tracking, flags = read_table(book)
+    return Submission(
+        name=book.name,
+        assignment_id=claims.assignment_id,
+        code=claims.code,
+        answers=answers,
+        tracking=tracking,
+        flags=tuple(sorted({*book.flags, *flags, *_hidden(book)})),
+        file_sha256=book.file_sha256,
+        content_sha256=_content_sha256(answers, tracking),
+    )
+
+
+def _answer(book: Book, question: Question, address: str) -> Answer:
+    named = _by_reference(book, book.names.get(f"ans_{question.id}".lower(), ""))
+    if named is not None:
+        unit = _by_reference(book, book.names.get(f"unit_{question.id}".lower(), ""))
+        return _made(*named, unit[0].at(unit[1]) if unit else None, "name")
+    labelled = _by_label(book, question)
+    if labelled is not None:
+        return labelled
+    templated = _by_reference(book, address)
+    if templated is not None:
+        sheet, (row, column) = templated
+        return _made(sheet, (row, column), sheet.at((row, column + 1)), "address")
+    return Answer()
+
+
+def _made(sheet: Sheet, place: Place, unit: BookCell | None, found_by: str) -> Answer:
+    cell = sheet.at(place)
+    unit_text = unit.text.strip() if unit is not None and unit.kind is Kind.TEXT else ""
+    return Answer(
+        cell.kind, cell.number, cell.text.strip(), unit_text[:40], f"{sheet.name}!{address_of(place)}", found_by
+    )
+
+
+def _by_reference(book: Book, reference: str) -> tuple[Sheet, Place] | None:
+    """Follow `'Sheet name'!$C$7` (or the first cell of a range)."""
+    sheet_text, bang, cells = reference.strip().lstrip("=").rpartition("!")
+    place = place_of(cells.partition(":")[0])
+    if not bang or place is None:
+        return None
+    wanted = sheet_text.strip("'").replace("''", "'").lower()
+    sheet = next((sheet for sheet in book.sheets if sheet.name.lower() == wanted), None)
+    return (sheet, place) if sheet is not None else None
+
+
+def _by_label(book: Book, question: Question) -> Answer | None:
+    """Find a label, and the answer to the right of it; None when there is none, or more than one."""
+    for wanted in (question.label, question.symbol, question.id):
+        found = [
+            (sheet, place)
+            for sheet in book.sheets
+            if sheet.is_visible and not _is_table(sheet)
+            for place, cell in sheet.cells.items()
+            if cell.kind is Kind.TEXT and wanted and _plain(cell.text) == _plain(wanted)
+        ]
+        if len(found) == 1:
+            return _beside(*found[0], question)
+    return None
+
+
+def _beside(sheet: Sheet, label: Place, question: Question) -> Answer:
+    row, column = label
+    skipped = {_plain(question.symbol), _plain(question.id)}
+    for step in range(1, _LABEL_REACH + 1):
+        cell = sheet.at((row, column + step))
+        is_symbol = cell.kind is Kind.TEXT and _plain(cell.text) in skipped
+        if cell.kind is not Kind.BLANK and not is_symbol and place_is_new(sheet, (row, column + step), label):
+            return _made(sheet, (row, column + step), sheet.at((row, column + step + 1)), "label")
+    return Answer(where=f"{sheet.name}!{address_of((row, column + 1))}", found_by="label")
+
+
+def place_is_new(sheet: Sheet, place: Place, label: Place) -> bool:
+    """Tell whether `place` does not merely show the label's own merged cell."""
+    return place in sheet.cells or sheet.at(place) is not sheet.at(label)
+
+
+def _is_table(sheet: Sheet) -> bool:
+    return sheet.name.lower().startswith(("tracking", _META_SHEET))
+
+
+def _plain(text: str) -> str:
+    """Return a text for comparison: no case, no accents, no spaces, no punctuation at the end."""
+    straight = unicodedata.normalize("NFKC", text).casefold()
+    return re.sub(r"[\s_:=.]+", "", straight)
+
+
+def _hidden(book: Book) -> set[str]:
+    ours = (_META_SHEET, "_")
+    return {"hidden-sheet"} if any(not s.is_visible and not s.name.startswith(ours) for s in book.sheets) else set()
+
+
+def _content_sha256(answers: Mapping[str, Answer], tracking: Mapping[str, object]) -> str:
+    content = repr(sorted((k, a.kind.value, a.text, a.unit_text) for k, a in answers.items()))
+    columns = repr([(name, list(map(str, column))) for name, column in sorted(_lists(tracking).items())])
+    return hashlib.sha256((content + columns).encode()).hexdigest()
+
+
+def _lists(tracking: Mapping[str, object]) -> dict[str, list[float]]:
+    return {name: list(column) for name, column in tracking.items()}  # type: ignore[call-overload]

@@ -1,0 +1,152 @@
+"""The small parts of a workbook: relations, sheet list, shared strings, number formats."""
+
+from __future__ import annotations
+
+import posixpath
+import re
+from dataclasses import dataclass, field
+
+from grader.read import limits
+from grader.read.errors import OUR_TEMPLATE, RefusedError
+from grader.read.markup import Attributes, parse, plain
+
+_BUILTIN_DATES = frozenset([*range(14, 23), *range(27, 37), *range(45, 48), *range(50, 59)])
+_NOT_LETTERS = re.compile(r'"[^"]*"|\\.|_.|\*.|\[(?!h+\]|m+\]|s+\])[^\]]*\]', re.IGNORECASE)
+
+
+@dataclass(frozen=True)
+class Relation:
+    """One line of a relations part."""
+
+    target: str
+    type: str
+
+
+@dataclass
+class Directory:
+    """What `workbook.xml` lists: sheets as (name, state, relation id), defined names, the date system."""
+
+    sheets: list[tuple[str, str, str]] = field(default_factory=list)
+    names: dict[str, str] = field(default_factory=dict)
+    is_1904: bool = False
+
+
+def read_relations(content: bytes, folder: str) -> dict[str, Relation]:
+    """Return the relations by id, with targets as member names."""
+    relations: dict[str, Relation] = {}
+
+    def start(name: str, attributes: Attributes) -> None:
+        if name == "Relationship" and attributes.get("TargetMode") != "External":
+            target = attributes.get("Target", "").replace("\\", "/")
+            path = target.lstrip("/") if target.startswith("/") else posixpath.normpath(posixpath.join(folder, target))
+            kind = attributes.get("Type", "").rpartition("/")[2]
+            relations[attributes.get("Id", "")] = Relation(path.lower(), kind)
+            _limit(len(relations), limits.MEMBERS, "relations")
+
+    parse(content, start)
+    return relations
+
+
+def read_directory(content: bytes) -> Directory:
+    """Read the list of sheets and the defined names."""
+    found, inside = Directory(), [""]
+
+    def start(name: str, attributes: Attributes) -> None:
+        inside[0] = ""
+        if name == "sheet":
+            sheet = plain(attributes)
+            found.sheets.append((sheet.get("name", ""), sheet.get("state", "visible"), sheet.get("id", "")))
+            _limit(len(found.sheets), limits.SHEETS, "sheets")
+        elif name == "definedName":
+            inside[0] = attributes.get("name", "").lower()
+            found.names.setdefault(inside[0], "")
+            _limit(len(found.names), limits.NAMES, "names")
+        elif name == "workbookPr":
+            found.is_1904 = attributes.get("date1904", "0").lower() in {"1", "true"}
+
+    def text(part: str) -> None:
+        if inside[0] and len(found.names[inside[0]]) < limits.TEXT_LENGTH:
+            found.names[inside[0]] += part
+
+    def end(_: str) -> None:
+        inside[0] = ""
+
+    parse(content, start, end, text)
+    return found
+
+
+def read_strings(content: bytes) -> list[str]:
+    """Return the shared strings; pronunciation guides are left out."""
+    strings: list[str] = []
+    pieces: list[str] = []
+    state = {"t": False, "phonetic": False}
+
+    def start(name: str, _: Attributes) -> None:
+        if name == "si":
+            pieces.clear()
+        state["t"] = name == "t"
+        state["phonetic"] = state["phonetic"] or name == "rPh"
+
+    def text(part: str) -> None:
+        if state["t"] and not state["phonetic"]:
+            pieces.append(part)
+
+    def end(name: str) -> None:
+        state["t"] = False
+        if name == "rPh":
+            state["phonetic"] = False
+        elif name == "si":
+            strings.append("".join(pieces)[: limits.TEXT_LENGTH])
+            _limit(len(strings), limits.STRINGS, "texts")
+
+    parse(content, start, end, text)
+    return strings
+
+
+def read_formats(content: bytes) -> list[str]:
+    """Return the number format of each cell style: its code, `date` for built-in dates, or "" for general."""
+    codes: dict[str, str] = {}
+    formats: list[str] = []
+    inside = [False]
+
+    def start(name: str, attributes: Attributes) -> None:
+        if name == "cellXfs":
+            inside[0] = True
+        elif name == "numFmt":
+            codes[attributes.get("numFmtId", "")] = attributes.get("formatCode", "")[: limits.TEXT_LENGTH]
+            _limit(len(codes), limits.STYLES, "styles")
+        elif name == "xf" and inside[0]:
+            formats.append(_format(attributes.get("numFmtId", "0"), codes))
+            _limit(len(formats), limits.STYLES, "styles")
+
+    def end(name: str) -> None:
+        if name == "cellXfs":
+            inside[0] = False
+
+    parse(content, start, end)
+    return formats
+
+
+def _format(number: str, codes: dict[str, str]) -> str:
+    if number in codes:
+        return codes[number]
+    if number in {"9", "10"}:
+        return "0%"
+    return "date" if number.isascii() and number.isdigit() and int(number[:6]) in _BUILTIN_DATES else ""
+
+
+def shows_date(code: str) -> bool:
+    """Tell whether a number format shows its number as a date or a time of day.
+
+    >>> shows_date("dd/mm/yyyy"), shows_date('0.00" days"'), shows_date("0.0E+00"), shows_date("[h]:mm")
+    (True, False, False, True)
+    """
+    if not code or code.lower() == "general":
+        return False
+    bare = _NOT_LETTERS.sub("", code).lower().replace("general", "")
+    return any(letter in bare for letter in "ymdhs")
+
+
+def _limit(count: int, most: int, what: str) -> None:
+    if count > most:
+        raise RefusedError(f"a workbook with more than {most} {what}", OUR_TEMPLATE)

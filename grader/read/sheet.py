@@ -1,0 +1,201 @@
+"""One sheet in one pass: values, kinds, formulas and number formats of its cells."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from grader.model import Kind
+from grader.read import limits
+from grader.read.errors import OUR_TEMPLATE, RefusedError
+from grader.read.markup import Attributes, parse
+from grader.read.parts import shows_date
+
+Place = tuple[int, int]
+"""Row and column, both from 1."""
+
+_REFERENCE = re.compile(r"\$?([A-Za-z]{1,3})\$?([0-9]{1,7})")
+_OTHER_WORKBOOK = re.compile(r"\[[^\]]+\][^!]*!")
+
+
+@dataclass(frozen=True)
+class BookCell:
+    """A cell's value; `format` is its number format, "" for general."""
+
+    kind: Kind
+    number: float | None = None
+    text: str = ""
+    format: str = ""
+    is_formula: bool = False
+
+
+@dataclass
+class SheetContent:
+    """What one sheet holds; `merges` are (first row, first column, last row, last column)."""
+
+    cells: dict[Place, BookCell] = field(default_factory=dict)
+    merges: list[tuple[int, int, int, int]] = field(default_factory=list)
+    flags: set[str] = field(default_factory=set)
+
+
+def place_of(reference: str) -> Place | None:
+    """Return row and column of an address such as `$C$7`, None when it is none.
+
+    >>> place_of("$C$7"), place_of("#REF!")
+    ((7, 3), None)
+    """
+    found = _REFERENCE.fullmatch(reference)
+    if found is None:
+        return None
+    column = 0
+    for letter in found[1].upper():
+        column = 26 * column + ord(letter) - 64
+    return int(found[2]), column
+
+
+def address_of(place: Place) -> str:
+    """Return the address of a row and column.
+
+    >>> address_of((7, 28))
+    'AB7'
+    """
+    row, column = place
+    letters = ""
+    while column:
+        column, rest = divmod(column - 1, 26)
+        letters = chr(65 + rest) + letters
+    return f"{letters}{row}"
+
+
+def read_sheet(content: bytes, strings: Sequence[str], formats: Sequence[str]) -> SheetContent:
+    """Read a sheet's cells; those far away are left out and flagged `far-cells`.
+
+    Raises
+    ------
+    RefusedError
+        When it is damaged or holds too many cells.
+    """
+    reader = _SheetReader(strings, formats)
+    parse(content, reader.start, reader.end, reader.text)
+    return reader.sheet
+
+
+class _SheetReader:
+    """The state of the pass: where we are, and what was collected of the current cell."""
+
+    def __init__(self, strings: Sequence[str], formats: Sequence[str]) -> None:
+        self.sheet = SheetContent()
+        self._strings, self._formats = strings, formats
+        self._row, self._column = 0, 0
+        self._attributes: Attributes | None = None
+        self._parts: dict[str, list[str]] = {}
+        self._into = ""
+        self._in_phonetic = False
+
+    def start(self, name: str, attributes: Attributes) -> None:
+        if name == "row":
+            number = attributes.get("r", "")
+            self._row = int(number) if number.isascii() and number.isdigit() and len(number) <= 7 else self._row + 1
+            self._column = 0
+        elif name == "c":
+            self._place(attributes)
+        elif name == "mergeCell":
+            self._merge(attributes.get("ref", ""))
+        elif self._attributes is not None:
+            self._in_phonetic = self._in_phonetic or name == "rPh"
+            self._into = name if name in {"v", "f", "t"} and not self._in_phonetic else ""
+            if self._into:
+                self._parts.setdefault(self._into, [])
+
+    def text(self, part: str) -> None:
+        if self._into:
+            self._parts[self._into].append(part)
+
+    def end(self, name: str) -> None:
+        self._into = ""
+        if name == "rPh":
+            self._in_phonetic = False
+        elif name == "c" and self._attributes is not None:
+            self._keep(self._attributes)
+            self._attributes = None
+
+    def _place(self, attributes: Attributes) -> None:
+        place = place_of(attributes.get("r", ""))
+        self._row, self._column = place or (self._row, self._column + 1)
+        self._attributes, self._parts = attributes, {}
+
+    def _keep(self, attributes: Attributes) -> None:
+        if not self._parts:
+            return  # style only
+        if self._row > limits.ROWS or self._column > limits.COLUMNS:
+            self.sheet.flags.add("far-cells")
+            return
+        formula = "f" in self._parts
+        if formula and _OTHER_WORKBOOK.search("".join(self._parts["f"])):
+            self.sheet.flags.add("formula-to-other-workbook")
+        written = "".join(self._parts.get("v", [])) or "".join(self._parts.get("t", []))
+        cell = self._cell(attributes, written, is_formula=formula)
+        if cell.kind is not Kind.BLANK:
+            self.sheet.cells[self._row, self._column] = cell
+        if len(self.sheet.cells) > limits.CELLS:
+            raise RefusedError(f"a workbook with more than {limits.CELLS} cells", OUR_TEMPLATE)
+
+    def _cell(self, attributes: Attributes, written: str, *, is_formula: bool) -> BookCell:
+        kind = attributes.get("t", "n")
+        code = self._format(attributes.get("s", ""))
+        if is_formula and not written and kind != "str":
+            return BookCell(Kind.UNCACHED, text="", format=code, is_formula=True)
+        if kind == "s":
+            return _text_cell(self._string(written), code, is_formula=is_formula)
+        if kind in {"str", "inlineStr"}:
+            return _text_cell(written, code, is_formula=is_formula)
+        if kind == "b":
+            return BookCell(Kind.BOOL, text="TRUE" if written == "1" else "FALSE", is_formula=is_formula)
+        if kind in {"e", "d"}:
+            return BookCell(Kind.ERROR if kind == "e" else Kind.DATE, text=written[:40], is_formula=is_formula)
+        return _number_cell(written, code, is_formula=is_formula)
+
+    def _format(self, style: str) -> str:
+        index = int(style) if style.isascii() and style.isdigit() and len(style) <= 6 else 0
+        return self._formats[index] if index < len(self._formats) else ""
+
+    def _string(self, written: str) -> str:
+        if not (written.isascii() and written.isdigit() and len(written) <= 7 and int(written) < len(self._strings)):
+            raise RefusedError("a damaged workbook")
+        return self._strings[int(written)]
+
+    def _merge(self, reference: str) -> None:
+        first, _, last = reference.partition(":")
+        corners = place_of(first), place_of(last or first)
+        if corners[0] and corners[1] and len(self.sheet.merges) < limits.MERGES:
+            self.sheet.merges.append((*corners[0], *corners[1]))
+
+
+def _text_cell(text: str, code: str, *, is_formula: bool) -> BookCell:
+    if not text.strip():
+        return BookCell(Kind.BLANK)
+    return BookCell(Kind.TEXT, text=text[: limits.TEXT_LENGTH], format=code, is_formula=is_formula)
+
+
+def _number_cell(written: str, code: str, *, is_formula: bool) -> BookCell:
+    if not written.strip():
+        return BookCell(Kind.BLANK)
+    try:
+        number = float(written[:64])
+    except ValueError as error:
+        raise RefusedError("a damaged workbook") from error
+    if not math.isfinite(number):
+        return BookCell(Kind.ERROR, text=written[:40], is_formula=is_formula)
+    kind = Kind.DATE if shows_date(code) else Kind.NUMBER
+    return BookCell(kind, number=number, text=shortest(number), format=code, is_formula=is_formula)
+
+
+def shortest(number: float) -> str:
+    """Return the shortest text of a number, without the noise of binary fractions.
+
+    >>> shortest(0.1 + 0.2), shortest(15.0)
+    ('0.3', '15')
+    """
+    return format(number, ".15g")

@@ -1,0 +1,73 @@
+"""What a file really is, by its first bytes: names and endings are not believed."""
+
+from __future__ import annotations
+
+from grader.read.errors import SAVE_AS, RefusedError
+from grader.read.limits import FILE_BYTES
+
+_OLE = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1"
+_SIGNATURES = (
+    (b"%PDF", "a PDF document"),
+    (b"\x89PNG", "a picture (PNG)"),
+    (b"\xff\xd8\xff", "a picture (JPEG)"),
+    (b"GIF8", "a picture (GIF)"),
+    (b"Rar!", "a RAR archive"),
+    (b"7z\xbc\xaf", "a 7z archive"),
+    (b"\x1f\x8b", "a gzip archive"),
+    (b"{\\rtf", "a text document (RTF)"),
+    (b"ID3", "a sound file"),
+)
+
+
+def require_zip(data: bytes) -> None:
+    """Return when `data` starts like a ZIP archive, which every .xlsx is.
+
+    Raises
+    ------
+    RefusedError
+        It says what the file is instead, and what to do.
+    """
+    if not data:
+        raise RefusedError("an empty file", "The upload was damaged; hand it in again.")
+    if len(data) > FILE_BYTES:
+        limit = f"{FILE_BYTES // 2**20} MB"
+        raise RefusedError(
+            f"a file of {len(data) / 2**20:.0f} MB (limit {limit})",
+            "Delete pictures and unused sheets, then save again.",
+        )
+    if data.startswith((b"PK\x03\x04", b"PK\x05\x06")):
+        return
+    raise _other(data)
+
+
+def _other(data: bytes) -> RefusedError:
+    if data.startswith(_OLE):
+        return _ole(data)
+    for signature, what in _SIGNATURES:
+        if data.startswith(signature):
+            return RefusedError(what, SAVE_AS)
+    if data[4:8] == b"ftyp" or data.startswith(b"RIFF"):
+        return RefusedError("a video", "Hand in the workbook, not the video.")
+    return _text(data)
+
+
+def _ole(data: bytes) -> RefusedError:
+    if "EncryptedPackage".encode("utf-16-le") in data:
+        return RefusedError(
+            "a password-protected workbook", "Remove the password (File, Info, Protect) and save it again."
+        )
+    return RefusedError("an old Excel workbook (.xls)", SAVE_AS)
+
+
+def _text(data: bytes) -> RefusedError:
+    head = data[:4096]
+    start = head.lstrip(b"\xef\xbb\xbf \t\r\n").lower()
+    if start.startswith((b"<!doctype html", b"<html", b"<table")):
+        return RefusedError("a web page", SAVE_AS)
+    if start.startswith(b"<?xml"):
+        return RefusedError("an XML file", SAVE_AS)
+    if b"\0" in head and not head.startswith((b"\xff\xfe", b"\xfe\xff")):
+        return RefusedError("a file of unknown kind", SAVE_AS)
+    if any(mark in head for mark in (b",", b";", b"\t")):
+        return RefusedError("a text table (CSV)", SAVE_AS)
+    return RefusedError("a file of unknown kind", SAVE_AS)

@@ -1,0 +1,129 @@
+"""What a student's cell says as a quantity: value in SI, how exactly it was written, or why it says nothing."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+from assignments.model import Question
+from grader.model import Answer, Kind, Outcome
+from vml_course.errors import AmbiguousNumberError, InputError, UncalibratedUnitError
+from vml_course.model.reading import UNITS, Reading, read_number, read_quantity
+
+_EXACT_DIGITS = 6  # a number with this many digits was computed, not rounded by a person
+
+
+@dataclass(frozen=True)
+class Stated:
+    """A number that could be read.
+
+    Attributes
+    ----------
+    value : float
+        In the question's SI unit.
+    half_unit : float
+        Half of the last written digit, same unit; 0 when the number was not rounded.
+    text : str
+        As the student sees it, with unit.
+    unit_given : bool
+    in_pixels : bool
+        The unit says honestly that it is pixels.
+    """
+
+    value: float
+    half_unit: float
+    text: str
+    unit_given: bool
+    in_pixels: bool = False
+
+
+@dataclass(frozen=True)
+class Unstated:
+    """Why a cell says no quantity, in words for the student, and how it is to be judged."""
+
+    outcome: Outcome
+    reason: str
+
+
+def state(answer: Answer, question: Question) -> Stated | Unstated:
+    """Read one answer as the quantity that the question asks for; never raises."""
+    if answer.kind is Kind.NUMBER:
+        return _from_text(answer, f"{answer.text} {answer.unit_text}", question)
+    if answer.kind is Kind.TEXT:
+        return _from_typed_text(answer, question)
+    return _NOTHING[answer.kind](answer)
+
+
+def _blank(_: Answer) -> Unstated:
+    return Unstated(Outcome.WRONG, "Nothing is written here.")
+
+
+def _bool(_: Answer) -> Unstated:
+    return Unstated(Outcome.WRONG, "The cell says TRUE or FALSE, not a number.")
+
+
+def _error(answer: Answer) -> Unstated:
+    return Unstated(
+        Outcome.WRONG, f"The formula in this cell ends in an error ({answer.text}). Check the cells that it uses."
+    )
+
+
+def _uncached(_: Answer) -> Unstated:
+    reason = "The formula was never worked out. Open the workbook in Excel, press Ctrl+Alt+F9, save, hand in again."
+    return Unstated(Outcome.UNSURE, reason)
+
+
+def _date(answer: Answer) -> Unstated:
+    serial = f" (day number {answer.text})" if answer.number is not None else ""
+    reason = f"The cell holds a date{serial}: the spreadsheet took your number for one. A person will look at it."
+    return Unstated(Outcome.UNSURE, reason)
+
+
+_NOTHING = {Kind.BLANK: _blank, Kind.BOOL: _bool, Kind.ERROR: _error, Kind.UNCACHED: _uncached, Kind.DATE: _date}
+
+
+def _from_typed_text(answer: Answer, question: Question) -> Stated | Unstated:
+    """Read typed text: a unit behind the number wins over the unit cell."""
+    try:
+        read_number(answer.text)
+    except InputError:
+        return _from_text(answer, answer.text, question)
+    return _from_text(answer, f"{answer.text} {answer.unit_text}", question)
+
+
+def _from_text(answer: Answer, text: str, question: Question) -> Stated | Unstated:
+    try:
+        reading = read_quantity(text, question.dimension, question.unit, name=question.label)
+    except UncalibratedUnitError:
+        return _in_pixels(answer, text)
+    except AmbiguousNumberError as error:
+        return Unstated(Outcome.UNSURE, f"'{answer.text}' can be read in two ways. {error.hint}".strip())
+    except InputError as error:
+        return _unreadable(answer, error)
+    shown = answer.text if text == answer.text else f"{answer.text} {reading.unit}".strip()
+    return Stated(reading.value, _half_unit(text, reading, question), shown, not reading.unit_assumed)
+
+
+def _in_pixels(answer: Answer, text: str) -> Stated | Unstated:
+    number = re.match(r"[^A-Za-zµμ]*", text.strip())
+    try:
+        value = read_number(number.group() if number else "")
+    except InputError as error:
+        return _unreadable(answer, error)
+    return Stated(value, 0.0, text.strip(), unit_given=True, in_pixels=True)
+
+
+def _unreadable(answer: Answer, error: InputError) -> Unstated:
+    """Judge a text that is no quantity: one with digits may mean something to a person."""
+    outcome = Outcome.UNSURE if any(character.isdigit() for character in answer.text) else Outcome.WRONG
+    return Unstated(outcome, f"Expected {error.expected}, got {error.got}.")
+
+
+def _half_unit(text: str, reading: Reading, question: Question) -> float:
+    """Return half of the last written digit in SI, 0 for a number that no person rounded."""
+    found = re.match(r"\s*[-+−]?([\d]*)(?:[.,](\d*))?(?:[eE]([-+]?\d+))?", text)
+    if found is None or len((found[1] or "").lstrip("0") + (found[2] or "")) >= _EXACT_DIGITS:
+        return 0.0
+    decimals = len(found[2] or "") - int(found[3] or 0)
+    factor = UNITS[question.dimension].get(reading.unit, 0.0)
+    return 0.5 * 10.0**-decimals * factor if abs(decimals) < 300 else 0.0

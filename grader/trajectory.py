@@ -1,0 +1,145 @@
+"""A student's tracking table laid over the true trajectory: scale, time lag, axis direction, and what remains.
+
+The table is in metres about an origin of the student's choice, so only its shape can be compared: a common
+scale, shift and time lag are fitted, then the remaining distance is measured in pixels of the video.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from assignments.model import AnswerKey
+from vml_course.model.arrays import FloatArray
+
+LEAST_ROWS = 10
+LARGEST_LAG = 12.0  # frames
+_FINE = 0.05  # frames
+
+
+@dataclass(frozen=True, eq=False)
+class TrajectoryFit:
+    """How a table fits the truth.
+
+    Attributes
+    ----------
+    points : tuple of str
+    frame : float array, shape (n,)
+    rms_px : float
+        Root mean square distance in the picture, after scale, shift and lag.
+    scale_ratio : float
+        The table's metres over true metres: 1 when calibrated, `px_per_m` when still in pixels.
+    lag_frames : float
+        By how many frames the table is late.
+    y_down : bool
+        Whether y was left pointing down.
+    own_m, true_m : float array, shape (n, p, 2)
+        Both in true metres, y up, about the picture's origin; NaN where the student has no number.
+    """
+
+    points: tuple[str, ...]
+    frame: FloatArray
+    time_s: FloatArray
+    rms_px: float
+    scale_ratio: float
+    lag_frames: float
+    y_down: bool
+    own_m: FloatArray
+    true_m: FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class _Trial:
+    lag: float
+    y_down: bool
+    scale: float
+    shift: FloatArray
+    rms: float
+
+
+def fit_trajectory(tracking: Mapping[str, FloatArray], key: AnswerKey) -> TrajectoryFit | None:
+    """Fit a tracking table to the truth; None when the table has too little to compare.
+
+    Parameters
+    ----------
+    tracking : mapping of str to float array, shape (n,)
+        Columns `frame` (or `t_s`) and `<point>_x_m`, `<point>_y_m`.
+    key : AnswerKey
+    """
+    px_per_m = key.truth["px_per_m"]
+    frame, points, own = _table(tracking, key)
+    true_m = key.xy_px * np.array([1.0, -1.0]) / px_per_m
+    if frame is None or not points or np.isfinite(own[..., 0]).sum() < LEAST_ROWS:
+        return None
+    truth = true_m[:, [key.points.index(point) for point in points]]
+    best = _best(frame, own, key.frame.astype(float), truth)
+    if best is None:
+        return None
+    flip = np.array([1.0, -1.0 if best.y_down else 1.0])
+    at = _shifted(key.frame.astype(float), truth, frame - best.lag)
+    return TrajectoryFit(
+        points=points,
+        frame=frame,
+        time_s=frame / key.truth["fps"],
+        rms_px=best.rms * px_per_m,
+        scale_ratio=1.0 / best.scale,
+        lag_frames=best.lag,
+        y_down=best.y_down,
+        own_m=own * flip * best.scale + best.shift,
+        true_m=at,
+    )
+
+
+def _table(tracking: Mapping[str, FloatArray], key: AnswerKey) -> tuple[FloatArray | None, tuple[str, ...], FloatArray]:
+    points = tuple(p for p in key.points if {f"{p}_x_m", f"{p}_y_m"} <= tracking.keys())
+    frame = tracking.get("frame")
+    if frame is None and "t_s" in tracking:
+        frame = tracking["t_s"] * key.truth["fps"]
+    if frame is None or not points:
+        return None, (), np.empty((0, 0, 2))
+    own = np.stack([np.stack([tracking[f"{p}_x_m"], tracking[f"{p}_y_m"]], axis=1) for p in points], axis=1)
+    kept = (
+        np.isfinite(frame) & (np.abs(np.nan_to_num(frame)) < 1e7) & (np.abs(np.nan_to_num(own)) < 1e9).all(axis=(1, 2))
+    )
+    order = np.argsort(frame[kept], kind="stable")
+    return frame[kept][order], points, own[kept][order]
+
+
+def _best(frame: FloatArray, own: FloatArray, true_frame: FloatArray, truth: FloatArray) -> _Trial | None:
+    """Search the lag coarsely, then finely, for both directions of y."""
+    best: _Trial | None = None
+    for step, reach in ((1.0, LARGEST_LAG), (0.25, 1.0), (_FINE, 0.25)):
+        centre = best.lag if best else 0.0
+        for lag in np.arange(centre - reach, centre + reach + step / 2, step):
+            for y_down in (False, True) if step == 1.0 else (best.y_down if best else False,):
+                trial = _trial(float(lag), y_down, own, _shifted(true_frame, truth, frame - lag))
+                if trial is not None and (best is None or trial.rms < best.rms):
+                    best = trial
+    return best
+
+
+def _shifted(true_frame: FloatArray, truth: FloatArray, at: FloatArray) -> FloatArray:
+    """Return the true positions at fractional frames, NaN outside the clip."""
+    result = np.full((at.size, *truth.shape[1:]), np.nan)
+    for p in range(truth.shape[1]):
+        for axis in range(2):
+            result[:, p, axis] = np.interp(at, true_frame, truth[:, p, axis], left=np.nan, right=np.nan)
+    return result
+
+
+def _trial(lag: float, y_down: bool, own: FloatArray, truth: FloatArray) -> _Trial | None:  # noqa: FBT001 - one of two
+    """Fit one scale and one shift by least squares: truth = scale * own + shift."""
+    seen = np.isfinite(own).all(axis=2) & np.isfinite(truth).all(axis=2)
+    if seen.sum() < LEAST_ROWS:
+        return None
+    a = own[seen] * np.array([1.0, -1.0 if y_down else 1.0])
+    b = truth[seen]
+    a0, b0 = a - a.mean(axis=0), b - b.mean(axis=0)
+    spread = float((a0**2).sum())
+    scale = float((a0 * b0).sum()) / spread if spread > 0 else 0.0
+    if scale <= 0:
+        return None
+    rms = float(np.sqrt(((a0 * scale - b0) ** 2).sum(axis=1).mean()))
+    return _Trial(lag, y_down, scale, b.mean(axis=0) - scale * a.mean(axis=0), rms)
