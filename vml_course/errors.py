@@ -146,5 +146,5 @@ class LengthMismatchError(InputError):
 
     def __init__(self, name: str, found_m: float, found_sd_m: float, given_m: float) -> None:
         self.found_m, self.found_sd_m, self.given_m = found_m, found_sd_m, given_m
-        found = f"about {found_m:.4g} ± {found_sd_m:.1g} m, the radius of the striker's path"
+        found = f"{found_m:.4f} ± {max(found_sd_m, 1e-4):.4f} m, the radius of the striker's path"
         super().__init__(name, found, f"{given_m:g} m", "Check the length, the scale and which point was tracked.")

@@ -99,5 +99,6 @@ def _refuse_second_impact(
         return
     if np.hypot(*second.jump_m_s) > 0.1 * np.hypot(*impact.jump_m_s):
         hint = "Cut the clip between the impacts, or choose a shorter window."
-        got = f"two, at {impact.time_s:.4f} s and {second.time_s:.4f} s"
+        first_s, last_s = sorted((impact.time_s, second.time_s))
+        got = f"two, at {first_s:.4f} s and {last_s:.4f} s"
         raise SeveralImpactsError(name, "one sudden change of velocity in the window", got, hint)

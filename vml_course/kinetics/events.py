@@ -78,20 +78,23 @@ def find_impact(
     NoImpactError
     """
     seen = np.flatnonzero(np.isfinite(xy_m).all(axis=1) & np.isfinite(time_s))
-    split = split_of(time_s[seen], xy_m[seen])
-    if split is None:
+    found = split_of(time_s[seen], xy_m[seen])
+    if found is None:
         hint = "Choose the struck body, and a clip with frames on both sides of the impact."
         raise NoImpactError(name, "a sudden change of velocity", "none in the clip", hint)
+    split, half = found
     moment = float(time_s[seen][split : split + 2].mean())
     straight = xy_m[seen].copy()
     for part, gravity in ((slice(0, split + 1), gravity_before), (slice(split + 1, None), gravity_after)):
         if gravity is not None:
             straight[part] -= 0.5 * np.multiply.outer((time_s[seen][part] - moment) ** 2, gravity)
-    return _impact(time_s, straight, seen, split)
+    return _impact(time_s, straight, seen, split, half)
 
 
-def _impact(time_s: FloatArray, straight: FloatArray, seen: IntArray, split: int) -> Impact:
+def _impact(time_s: FloatArray, straight: FloatArray, seen: IntArray, split: int, half: int) -> Impact:
     away_before, away_after = np.arange(split, -1, -1), np.arange(split + 1, len(seen))
+    if half < HALF_WINDOW:
+        away_before, away_after = away_before[:half], away_after[:half]
     times = time_s[seen]
     noise_m = 1e-6 * float(np.ptp(straight, axis=0).max())
     first = away_before[_contact_frames(times[away_before], straight[away_before], noise_m) :][:HALF_WINDOW]
@@ -100,8 +103,8 @@ def _impact(time_s: FloatArray, straight: FloatArray, seen: IntArray, split: int
     return Impact(int(seen[first[0]]), int(seen[last[0]]), meeting_time(before, after), before, after)
 
 
-def split_of(time_s: FloatArray, xy_m: FloatArray) -> int | None:
-    """Return the index of the last frame before the impact, or None when there is no impact.
+def split_of(time_s: FloatArray, xy_m: FloatArray) -> tuple[int, int] | None:
+    """Return the index of the last frame before the impact and the frames a side that show it; None without impact.
 
     Parameters
     ----------
@@ -110,22 +113,26 @@ def split_of(time_s: FloatArray, xy_m: FloatArray) -> int | None:
     """
     if len(time_s) < 2 * LEAST_SIDE:
         return None
-    split = int(np.argmax(split_f(time_s, xy_m))) + LEAST_SIDE - 1
-    near = slice(max(split + 1 - HALF_WINDOW, 0), split + 1 + HALF_WINDOW)
-    is_kink = _is_kink(time_s[near], xy_m[near], float(time_s[split : split + 2].mean()))
-    return split if is_kink else None
+    # Nearer looks, lest a second impact close by hide the first; they must show it the more clearly.
+    for closer in (1, 2, 4):
+        half = HALF_WINDOW // closer
+        split = int(np.argmax(split_f(time_s, xy_m, half))) + LEAST_SIDE - 1
+        near = slice(max(split + 1 - half, 0), split + 1 + half)
+        if _is_kink(time_s[near], xy_m[near], float(time_s[split : split + 2].mean()), LEAST_F * closer):
+            return split, half
+    return None
 
 
-def split_f(time_s: FloatArray, xy_m: FloatArray) -> FloatArray:
+def split_f(time_s: FloatArray, xy_m: FloatArray, half_window: int = HALF_WINDOW) -> FloatArray:
     """Return the F statistic of two lines against one, for each split with 3 frames a side or more.
 
     Both coordinates share the split: four parameters more for two lines than for one.
     """
-    pad = np.full(HALF_WINDOW, np.nan)
+    pad = np.full(half_window, np.nan)
     columns = [np.concatenate([pad, column, pad]) for column in (time_s, *np.asarray(xy_m).T)]
-    windows = [sliding_window_view(column, HALF_WINDOW) for column in columns]
+    windows = [sliding_window_view(column, half_window) for column in columns]
     splits = np.arange(LEAST_SIDE - 1, len(time_s) - LEAST_SIDE)
-    sides = [[window[splits + shift] for window in windows] for shift in (1, HALF_WINDOW + 1)]
+    sides = [[window[splits + shift] for window in windows] for shift in (1, half_window + 1)]
     both = [np.concatenate(pair, axis=1) for pair in zip(*sides, strict=True)]
     floor = 1e-18 * float(np.ptp(xy_m, axis=0).max()) ** 2 + 1e-30
     two = _scatter(*sides[0]) + _scatter(*sides[1]) + floor
@@ -144,7 +151,7 @@ def _scatter(time_s: FloatArray, x_m: FloatArray, y_m: FloatArray) -> FloatArray
     return total
 
 
-def _is_kink(time_s: FloatArray, xy_m: FloatArray, moment_s: float) -> bool:
+def _is_kink(time_s: FloatArray, xy_m: FloatArray, moment_s: float, least_f: float) -> bool:
     """Tell a kink from a smooth acceleration: it must beat a parabola clearly, and a cubic by half."""
     t = (time_s - moment_s) / max(float(np.ptp(time_s)), 1e-12)
     parabola = np.stack([np.ones_like(t), t, t**2], axis=1)
@@ -154,9 +161,8 @@ def _is_kink(time_s: FloatArray, xy_m: FloatArray, moment_s: float) -> bool:
         return False
     gain = _misfit(parabola, xy_m) - kink
     freedom = max(2 * len(t) - 8, 1)
-    return gain / 2.0 > LEAST_F * (kink + floor) / freedom and kink < 0.5 * _misfit(
-        np.column_stack([parabola, t**3]), xy_m
-    )
+    cubic = _misfit(np.column_stack([parabola, t**3]), xy_m)
+    return gain / 2.0 > least_f * (kink + floor) / freedom and kink < 0.5 * cubic
 
 
 def _misfit(basis: FloatArray, xy_m: FloatArray) -> float:

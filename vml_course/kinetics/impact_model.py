@@ -14,6 +14,9 @@ from vml_course.model.solution import ImpactSolution
 DRIVES = ("free", "none")
 FLIGHTS = ("after", "always", "never")
 
+SYMBOLS: Mapping[str, str] = {"m": "mass", "M": "mass", "L": "length", "D": "length", "R": "length", "a": "length"}
+"""Numbers that a student may be given, and their dimensions."""
+
 
 @dataclass(frozen=True)
 class ImpactOptions:

@@ -1,0 +1,86 @@
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from vml_course import cli
+from vml_course.errors import InputError, UnitError, UnknownNameError
+from vml_course.usecases.solve_table import read_given
+
+GIVEN = ["-g", "m=0.5kg", "-g", "L=0.56 m"]
+
+
+def _kick_csv(folder: Path, knee: bool = True, unit: str = "m") -> Path:
+    """Write a kick with 15 -> 13 m/s and a ball 0 -> 24 m/s, without gravity: exact in closed form."""
+    time = np.arange(60) / 480
+    s = time - 0.0603
+    angle = -np.pi / 2 + np.where(s <= 0, 15, 13) / 0.56 * s
+    ball = np.stack([0.1 + 24 * np.clip(s, 0, None), -0.56 + 0 * s], axis=1)
+    foot = 0.56 * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    points = {"foot": foot, "knee": 0 * foot, "ball": ball} if knee else {"foot": foot, "ball": ball}
+    header = ["frame", "t_s", *(f"{name}_{axis}_{unit}" for name in points for axis in "xy")]
+    rows = np.column_stack([np.arange(60) + 400, time, *points.values()])
+    path = folder / "kick.csv"
+    text = "\n".join(",".join(f"{number:.12g}" for number in row) for row in rows)
+    path.write_text(",".join(header) + "\n" + text + "\n", encoding="utf-8")
+    return path
+
+
+def test_json_has_both_methods_with_values_and_units(tmp_path, capsys):
+    assert cli.run(["solve", str(_kick_csv(tmp_path)), *GIVEN, "--gravity", "0 m/s^2", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["e"]["value"] == pytest.approx(11 / 15, rel=1e-6)
+    assert found["I"]["value"] == pytest.approx(1.8816, rel=1e-5)
+    assert found["I"]["sd"] == pytest.approx(0.0094, rel=0.02)
+    assert found["I"]["unit"] == "kg m^2"
+    assert found["method"] == "joint"
+    assert found["frame_before"] == 428
+    assert found["lines"]["e"]["value"] == pytest.approx(11 / 15, rel=1e-6)
+    assert found["lines"]["correlation_e_I"] is None
+    assert found["notes"] == []
+
+
+def test_the_table_shows_values_with_their_uncertainty(tmp_path, capsys):
+    assert cli.run(["solve", str(_kick_csv(tmp_path)), *GIVEN, "--gravity", "0 m/s^2"]) == 0
+    shown = capsys.readouterr().out
+    assert "0.7333 ± 0.0022" in shown
+    assert "1.8816 ± 0.0094" in shown
+
+
+def test_without_a_knee_the_reference_still_solves_and_says_why_lines_do_not(tmp_path, capsys):
+    path = _kick_csv(tmp_path, knee=False)
+    assert cli.run(["solve", str(path), *GIVEN, "--gravity", "0 m/s^2"]) == 0
+    assert "note: no solution by lines: point: expected one of foot, ball, got 'knee'" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "line"),
+    [
+        ([], "given m: expected a mass, got nothing. Give it with -g m=0.5kg."),
+        (["-g", "m=0.5"], "given m: expected a unit after the number (kg, g, lb), got none."),
+        (["-g", "m"], "-g: expected symbol=number unit, such as m=0.5kg, got 'm'."),
+        ([*GIVEN, "--model", "loose"], "model: expected one of fixed-pivot, got 'loose'."),
+        ([*GIVEN, "--window", "40"], "--window: expected a unit after the number (s, ms), got none."),
+    ],
+)
+def test_wrong_input_is_one_line_and_exit_code_2(tmp_path, capsys, arguments, line):
+    assert cli.run(["solve", str(_kick_csv(tmp_path)), *arguments]) == 2
+    assert capsys.readouterr().err == line + "\n"
+
+
+def test_pixels_without_a_scale_are_refused(tmp_path, capsys):
+    assert cli.run(["solve", str(_kick_csv(tmp_path, unit="px")), *GIVEN]) == 2
+    assert "pixels only" in capsys.readouterr().err
+
+
+def test_given_numbers_bring_their_uncertainty():
+    given, given_sd = read_given(["m=500 g ± 2 %", "L = 56cm"])
+    assert given == {"m": pytest.approx(0.5), "L": pytest.approx(0.56)}
+    assert given_sd == {"m": pytest.approx(0.01)}
+
+
+@pytest.mark.parametrize(("text", "error"), [("m:0.5kg", InputError), ("x=1m", UnknownNameError), ("L=2kg", UnitError)])
+def test_given_numbers_that_make_no_sense_are_refused(text, error):
+    with pytest.raises(error):
+        read_given([text])

@@ -1,0 +1,39 @@
+"""The solver against the simulated kick: two independent roads to the same e and I."""
+
+import numpy as np
+import pytest
+
+from vml_course.kinetics.impact_model import ImpactOptions
+from vml_course.kinetics.lines import solve_by_lines
+from vml_course.kinetics.models import impact_model
+from vml_course.model.motion import Motion
+from vml_course.synth.scene import scene_class
+from vml_course.synth.simulate import simulate
+
+
+def _simulated(**values):
+    kind = scene_class("soccer_kick")
+    truth = simulate(kind(**values), kind.default_camera, 1)
+    n = len(truth.time_s)
+    return truth, Motion(truth.points, np.arange(n), truth.time_s, truth.xy_m, np.full(truth.xy_m.shape[:2], np.nan))
+
+
+@pytest.mark.parametrize(
+    "values", [{}, {"restitution": 0.5, "inertia_kg_m2": 1.0}, {"normal_tilt_deg": 3.0}, {"gravity_moment_N_m": 9.4}]
+)
+@pytest.mark.parametrize("drive", ["free", "none"])
+def test_a_simulated_kick_is_solved_to_1e_4(values, drive):
+    truth, motion = _simulated(**values)
+    solution = impact_model(truth.model).solve(motion, truth.given, ImpactOptions(drive=drive))
+    assert solution.value("e") == pytest.approx(truth.impact.restitution, rel=1e-4)
+    assert solution.value("I") == pytest.approx(truth.impact.inertia_kg_m2, rel=1e-4)
+    assert solution.value("J") == pytest.approx(truth.impact.impulse_N_s, rel=1e-4)
+    assert solution.value("t_impact") == pytest.approx(truth.impact.time_s, abs=1e-6)
+    assert solution.frame_before == truth.impact.frame_before
+
+
+def test_the_lines_of_a_student_come_within_half_a_percent():
+    truth, motion = _simulated()
+    solution = solve_by_lines(motion, truth.given)
+    assert solution.value("e") == pytest.approx(truth.impact.restitution, rel=5e-3)
+    assert solution.value("I") == pytest.approx(truth.impact.inertia_kg_m2, rel=5e-3)

@@ -1,0 +1,136 @@
+"""`vml solve`: e and I from a table of tracked points."""
+
+from __future__ import annotations
+
+import json
+import math
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+if TYPE_CHECKING:
+    from vml_course.model.solution import ImpactSolution
+    from vml_course.usecases.solve_table import Solved
+
+EXAMPLE = "Example: vml solve track.xlsx --model fixed-pivot -g m=0.5kg -g L=0.56m"
+
+
+class Drive(StrEnum):
+    """Whether something may drive the striker beside gravity."""
+
+    free = "free"
+    none = "none"
+
+
+class Flight(StrEnum):
+    """When gravity acts on the struck body."""
+
+    after = "after"
+    always = "always"
+    never = "never"
+
+
+class Method(StrEnum):
+    """Which way to solve."""
+
+    both = "both"
+    joint = "joint"
+    lines = "lines"
+
+
+def register(app: typer.Typer) -> None:
+    """Add `solve` to the commands."""
+    app.command("solve", epilog=EXAMPLE)(solve)
+
+
+def solve(
+    table: Annotated[Path, typer.Argument(help="Positions in metres: .xlsx, .csv or .mat, as `vml track` writes.")],
+    given: Annotated[
+        list[str] | None,
+        typer.Option("-g", "--given", metavar="SYMBOL=VALUE", help="A given number with its unit. Repeatable."),
+    ] = None,
+    model: Annotated[str, typer.Option(help="Impact model.")] = "fixed-pivot",
+    striker: Annotated[str, typer.Option(help="Point that strikes.")] = "foot",
+    struck: Annotated[str, typer.Option(help="Centre of the struck body.")] = "ball",
+    knee: Annotated[str, typer.Option(help="Mark at the pivot: lines need it, joint only checks it.")] = "knee",
+    drive: Annotated[Drive, typer.Option(help="none: no driving torque is declared; four times as sharp in I.")] = (
+        Drive.free
+    ),
+    flight: Annotated[Flight, typer.Option(help="When gravity acts on the struck body.")] = Flight.after,
+    at_rest: Annotated[bool, typer.Option("--at-rest", help="The struck body is at rest before the impact.")] = False,
+    window: Annotated[str, typer.Option(help="Time each side that the joint fit uses.")] = "40 ms",
+    gravity: Annotated[str, typer.Option(help="0 m/s^2 in a view from above.")] = "9.81 m/s^2",
+    method: Annotated[Method, typer.Option(help="joint: least squares; lines: as a student does it.")] = Method.both,
+    as_json: Annotated[bool, typer.Option("--json", help="Print the result as JSON.")] = False,
+) -> None:
+    """Find restitution e and moment of inertia I of an impact, each with its uncertainty (one standard deviation)."""
+    from vml_course.kinetics.impact_model import ImpactOptions
+    from vml_course.model.reading import read_quantity
+    from vml_course.usecases.solve_table import read_given, solve_table
+
+    values, given_sd = read_given(given or [])
+    options = ImpactOptions(
+        striker=striker,
+        struck=struck,
+        knee=knee,
+        drive=drive.value,
+        flight=flight.value,
+        at_rest=at_rest,
+        window_s=read_quantity(window, "time", name="--window").value,
+        gravity_m_s2=read_quantity(gravity, "acceleration", name="--gravity").value,
+        given_sd=given_sd,
+    )
+    solved = solve_table(table, model, values, options, method.value)
+    if as_json:
+        typer.echo(json.dumps(_as_json(solved), indent=1, ensure_ascii=False))
+    else:
+        _print(solved)
+
+
+def _as_json(solved: Solved) -> dict[str, Any]:
+    facts = _solution_json(solved.main)
+    if solved.joint and solved.lines:
+        facts["lines"] = _solution_json(solved.lines)
+    return {**facts, "notes": list(solved.notes)}
+
+
+def _solution_json(solution: ImpactSolution) -> dict[str, Any]:
+    """Return one solution; a number that does not exist is null."""
+    estimates = {
+        symbol: {"value": _number(found.value), "sd": _number(found.sd), **({"unit": found.unit} if found.unit else {})}
+        for symbol, found in solution.estimates.items()
+    }
+    figures = {name: _number(value) for name, value in solution.figures.items()}
+    facts = {"model": solution.model, "method": solution.method, "frame_before": solution.frame_before}
+    return {**estimates, **facts, "correlation_e_I": _number(solution.correlation_e_I), "figures": figures}
+
+
+def _number(value: float) -> float | None:
+    return value if math.isfinite(value) else None
+
+
+def _print(solved: Solved) -> None:
+    from rich import box
+    from rich.console import Console
+    from rich.table import Table
+
+    from vml_course.model.rounding import with_uncertainty
+
+    main, found = solved.main, [s for s in (solved.joint, solved.lines) if s is not None]
+    table = Table(
+        title=f"{main.model}: impact after frame {main.frame_before}",
+        title_justify="left",
+        box=box.SIMPLE_HEAD,
+        padding=(0, 2, 0, 0),
+    )
+    for name in ("", *(solution.method for solution in found), "unit"):
+        table.add_column(name, no_wrap=True)
+    for symbol, estimate in main.estimates.items():
+        cells = [solution.estimates.get(symbol) for solution in found]
+        texts = ["" if cell is None else with_uncertainty(cell.value, cell.sd) for cell in cells]
+        table.add_row(symbol, *texts, estimate.unit)
+    Console(highlight=False).print(table)
+    for note in solved.notes:
+        typer.echo(f"note: {note}")
