@@ -13,12 +13,14 @@ from pathlib import Path
 
 import cv2
 import numpy as np
-from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from jinja2 import Environment, FileSystemLoader, StrictUndefined, TemplateError
 from markupsafe import Markup, escape
 from numpy.typing import NDArray
 
+from assignments.errors import AssignmentFileError
 from assignments.model import Assignment, Variant
 from assignments.words import split_symbol, tolerance_text, tracking_columns
+from vml_course.errors import InputError
 from vml_course.io.files import replacing
 
 TEMPLATES = Path(__file__).parent / "templates"
@@ -105,6 +107,11 @@ def render_handout(
         Name of the video file.
     due : str
         When it is to be handed in, as students read it; "" for no date.
+
+    Raises
+    ------
+    AssignmentFileError
+        When the template names something that does not exist.
     """
     environment = Environment(
         loader=FileSystemLoader([assignment.folder, str(TEMPLATES)]),
@@ -114,15 +121,16 @@ def render_handout(
         lstrip_blocks=True,
     )
     environment.filters.update(symbol=symbol_html, number=number_text, unit=unit_text, tolerance=tolerance_text)
-    return environment.get_template(assignment.handout_template).render(
-        assignment=assignment,
-        code=variant.code,
-        given=given,
-        picture=picture,
-        columns=tracking_columns(assignment.points),
-        video=video,
-        due=due,
-    )
+    told = {"assignment": assignment, "code": variant.code, "given": given, "picture": picture}
+    columns = tracking_columns(assignment.points)
+    try:
+        template = environment.get_template(assignment.handout_template)
+        return template.render(**told, columns=columns, video=video, due=due)
+    except TemplateError as error:
+        raise AssignmentFileError(
+            f"{assignment.id}/{assignment.handout_template}",
+            [InputError("template", "names and commands that exist", error.message or error)],
+        ) from error
 
 
 def write_handout(path: Path, html: str) -> None:
@@ -150,7 +158,7 @@ def number_text(value: float) -> str:
     >>> number_text(0.5), number_text(480.0)
     ('0.5', '480')
     """
-    return f"{value:.6g}"
+    return f"{float(value):.6g}"
 
 
 def unit_text(unit: str) -> Markup:

@@ -47,7 +47,7 @@ def answer_key(
         expected_sd={symbol: estimate.sd for symbol, estimate in estimates.items()},
         measured={symbol: estimate.value for symbol, estimate in estimates.items()},
         given=given_values(assignment, variant),
-        truth=_further(truth),
+        truth=_further(truth) | _stick(truth, assignment),
         video_sha256=video_sha256,
         versions={
             **truth.versions,
@@ -121,6 +121,13 @@ def _further(truth: Truth) -> dict[str, float]:
         "theta_impact_rad": leg_rad,
         "tilt_rad": math.remainder(normal_rad - path_rad, 2 * math.pi),
     }
+
+
+def _stick(truth: Truth, assignment: Assignment) -> dict[str, float]:
+    """Return where both ends of the known length are seen."""
+    ends = zip("12", (assignment.stick.tail, assignment.stick.head), strict=True)
+    places = {number: truth.camera.to_px(np.array(truth.marks_m[mark])) for number, mark in ends}
+    return {f"stick_{axis}{number}_px": float(xy[k]) for number, xy in places.items() for k, axis in enumerate("xy")}
 
 
 # ---------------------------------------------------------------- to keep
