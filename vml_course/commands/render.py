@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from enum import Enum
+from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 EXAMPLE = "Example: vml render soccer_kick --set e=11/15 --set fps=480 --seed 7 -o kick"
 
 
-class Format(str, Enum):
+class Format(StrEnum):
     """Kinds of video that can be written."""
 
     mp4 = "mp4"

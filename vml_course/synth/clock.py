@@ -52,6 +52,12 @@ class Clock:
         """Time of every frame, shape (n,)."""
         return np.arange(self.frame_count) / self.fps
 
+    @property
+    def since_impact_s(self) -> FloatArray:
+        """Time of every frame after the impact, shape (n,); exactly 0 on a frame that shows the contact."""
+        steps = np.arange(self.frame_count) * self.steps_per_frame - self.impact_step
+        return np.asarray(steps * self.step_s, dtype=np.float64)
+
 
 def set_clock(fps: float, before_s: float, after_s: float, phase: float, refine: int = 1) -> Clock:
     """Return the clock of a clip with at least `before_s` and `after_s` around the impact.

@@ -76,7 +76,7 @@ def frame_checks(scene: Scene, camera: Camera, clock: Clock, pose: FloatArray) -
     shift = np.hypot(*np.moveaxis(pose[..., :2] - ideal[..., :2], -1, 0)).max()
     turn = np.abs(pose[:, 0, 2] - ideal[:, 0, 2]).max() * reach
     yield Check("frame positions against closed form, px", float(max(shift, turn) * camera.px_per_m), FRAME_PX)
-    near = np.abs(clock.frame_s - clock.impact_s) <= WINDOW_S + 1.0 / clock.fps
+    near = np.abs(clock.since_impact_s) <= WINDOW_S + 1e-9
     yield Check("bodies outside the picture, px", _outside_px(scene, camera, pose[near]), 0.0)
     marks = camera.to_px(np.array(list(scene.marks_m().values())))
     yield Check("scale marks outside the picture, px", _beyond_px(camera, marks, 0.0), 0.0)
@@ -87,7 +87,7 @@ def ideal_pose(strike: PinnedStrike, clock: Clock) -> FloatArray:
     _, w2, u2 = pinned_impact(
         strike.inertia_kg_m2, strike.ball_mass_kg, strike.arm_m, strike.restitution, strike.omega_before_rad_s, 0.0
     )
-    time = clock.frame_s - clock.impact_s
+    time = clock.since_impact_s
     before, after = time[: clock.frame_before + 1], time[clock.frame_before + 1 :]
     pose = np.zeros((clock.frame_count, 2, 3))
     pose[: len(before), 0, 2] = swing(

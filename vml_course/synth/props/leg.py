@@ -1,4 +1,4 @@
-"""A leg from the knee down: skin, sock, boot, with targets at knee, shin and foot.
+"""A leg from the knee down: knee sleeve, sock, boot, with targets at knee, shin and foot.
 
 Drawn hanging straight down from the knee, which is its origin, toes forward (+x, where the ball is). In
 front, no part reaches farther than the boot's striking circle, so that the leg never enters the ball.
@@ -12,16 +12,19 @@ import numpy as np
 
 from vml_course.synth.canvas import Canvas, sheet
 from vml_course.synth.props.target import draw_target
-from vml_course.synth.shapes import both, box, disc, tapered, union
+from vml_course.synth.shapes import both, box, tapered, union
 from vml_course.synth.sprite import OVERSAMPLE, Sprite, make_sprite
 from vml_course.synth.texture import Plane, grain
 
 SKIN = (205.0, 156.0, 128.0)
+SLEEVE = (112.0, 108.0, 118.0)
 SOCK = (44.0, 92.0, 168.0)
 BAND = (214.0, 216.0, 222.0)
 BOOT = (206.0, 92.0, 36.0)
 SOLE = (60.0, 56.0, 58.0)
 TOE_M = 0.12
+SOLE_M = 0.014
+SLEEVE_TO = 0.17  # of the way from knee to foot
 SOCK_FROM = 0.24  # of the way from knee to foot
 GRAIN_GREY = 25.0
 
@@ -43,9 +46,9 @@ def draw_leg(leg: Leg, px_per_m: float, seed: int) -> Sprite:
     on = sheet((wide, wide, leg.length_m + TOE_M + leg.foot_m, leg.knee_m), px_per_m, OVERSAMPLE)
     limb, boot = _limb(on, leg), _boot(on, leg)
     on.fill(limb, SKIN)
+    on.fill(both(limb, box(on, (-1.0, -SLEEVE_TO * leg.length_m), (1.0, 1.0))), SLEEVE)
     _draw_sock(on, leg, limb)
-    on.fill(boot, SOLE)
-    on.fill(_boot(on, leg, sole=0.012), BOOT)
+    _draw_boot(on, leg, boot)
     outline = union(limb, boot)
     on.lighten(_roundness(on, leg), outline)
     speckle = grain(seed, "leg", (on.opacity.shape[0], on.opacity.shape[1]), OVERSAMPLE)
@@ -63,15 +66,33 @@ def _limb(on: Canvas, leg: Leg) -> Plane:
     return union(tapered(on, knee, shin), tapered(on, shin, ankle))
 
 
-def _boot(on: Canvas, leg: Leg, sole: float = 0.0) -> Plane:
-    """Return the distance to the boot, less a sole on its back."""
-    foot = ((-sole / 2, -leg.length_m), leg.foot_m - sole / 2)
-    collar = ((-0.1 * leg.foot_m, -0.86 * leg.length_m), 0.85 * leg.foot_m - sole / 2)
-    toe = ((-0.15 * leg.foot_m, -leg.length_m - TOE_M), 0.5 * leg.foot_m - sole / 2)
-    heel = ((-0.45 * leg.foot_m, -0.9 * leg.length_m), 0.75 * leg.foot_m)
-    shape = union(tapered(on, foot, toe), tapered(on, collar, foot), tapered(on, heel, foot))
-    striking = disc(on, (0.0, -leg.length_m), leg.foot_m)
-    return union(shape, striking) if not sole else shape
+def _boot(on: Canvas, leg: Leg, shift: float = 0.0) -> Plane:
+    """Return the distance to the boot, or to the same shape shifted forward."""
+    height, r = -leg.length_m, leg.foot_m
+    foot = ((shift, height), r)
+    collar = ((shift - 0.1 * r, 0.86 * height), 0.85 * r)
+    toe = ((shift - 0.15 * r, height - TOE_M), 0.5 * r)
+    heel = ((shift - 0.45 * r, 0.9 * height), 0.75 * r)
+    return union(tapered(on, foot, toe), tapered(on, collar, foot), tapered(on, heel, foot))
+
+
+def _draw_boot(on: Canvas, leg: Leg, boot: Plane) -> None:
+    """Draw upper, three stripes, and a sole along the back: what the boot shifted forward does not cover."""
+    upper = both(boot, _boot(on, leg, SOLE_M))
+    on.fill(boot, SOLE)
+    on.fill(upper, BOOT)
+    for step in (0.45, 0.85, 1.25):
+        x, y = -0.55 * leg.foot_m, -leg.length_m - (step - 0.1) * leg.foot_m
+        stripe = tapered(on, ((x, y), 0.006), ((x + 0.9 * leg.foot_m, y - 0.45 * leg.foot_m), 0.006))
+        on.fill(both(upper, stripe), BAND)
+    collar = both(upper, -_boot_opening(on, leg))
+    on.fill(collar, SOLE)
+
+
+def _boot_opening(on: Canvas, leg: Leg) -> Plane:
+    """Return the distance to all that lies below the boot's upper rim."""
+    rim = -0.86 * leg.length_m + 0.55 * leg.foot_m
+    return np.asarray(on.y_m - rim + 0.0 * on.x_m, np.float32)
 
 
 def _draw_sock(on: Canvas, leg: Leg, limb: Plane) -> None:

@@ -11,6 +11,7 @@ BLACK = (28.0, 28.0, 30.0)
 WHITE = (236.0, 236.0, 232.0)
 RED = (196.0, 44.0, 40.0)
 TARGET_M = 0.022
+TICK_M = 0.006
 SMALLEST_TARGET_PX = 7.0
 
 
@@ -29,7 +30,7 @@ def draw_target(on: Canvas, centre: Point, samples_per_px: float) -> None:
 
 
 def draw_pole(on: Canvas, left: Point, right: Point) -> None:
-    """Draw a level pole of ten red and white parts with upright end marks exactly at `left` and `right`."""
+    """Draw a level pole of ten red and white parts with upright ticks centred on `left` and `right`."""
     parts, (x, y), length = 10, left, right[0] - left[0]
     half = 0.014
     on = on.near((x - 0.01, y - 0.05), (right[0] + 0.01, y + 0.05))
@@ -37,6 +38,5 @@ def draw_pole(on: Canvas, left: Point, right: Point) -> None:
     for part in range(parts):
         ends = x + length * part / parts, x + length * (part + 1) / parts
         on.fill(box(on, (ends[0], y - half), (ends[1], y + half)), RED if part % 2 == 0 else WHITE)
-    for end, inward in ((left, 1.0), (right, -1.0)):
-        edges = sorted((end[0], end[0] + inward * 0.006))
-        on.fill(box(on, (edges[0], y - 0.04), (edges[1], y + 0.04)), BLACK)
+    for end in (left, right):
+        on.fill(box(on, (end[0] - TICK_M / 2, y - 0.04), (end[0] + TICK_M / 2, y + 0.04)), BLACK)

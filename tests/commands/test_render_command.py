@@ -1,0 +1,62 @@
+"""`vml render` at the prompt."""
+
+import json
+
+import pytest
+
+from vml_course.cli import run
+
+SMALL = [
+    part
+    for text in ("fps=240", "width_px=640", "height_px=360", "px_per_m=250", "origin_x_px=210", "origin_y_px=100")
+    for part in ("--set", text)
+]
+
+
+def test_it_writes_three_files_and_says_so(tmp_path, capsys):
+    assert run(["render", "soccer_kick", *SMALL, "--set", "e=11/15", "-o", str(tmp_path / "kick")]) == 0
+    said = capsys.readouterr().out
+    for name in ("video.mp4", "truth.json", "truth.csv"):
+        assert (tmp_path / "kick" / name).stat().st_size > 0
+        assert name in said
+    assert "e = 0.7333" in said
+
+
+def test_json_is_all_that_goes_to_standard_output(tmp_path, capsys):
+    assert run(["render", "soccer_kick", *SMALL, "--format", "avi", "--json", "-o", str(tmp_path)]) == 0
+    facts = json.loads(capsys.readouterr().out)
+    assert facts["video"].endswith("video.avi")
+    assert facts["I"] == pytest.approx(1.8816)
+
+
+def test_parameters_are_listed_with_unit_range_and_meaning(capsys):
+    assert run(["render", "soccer_kick", "--parameters"]) == 0
+    said = capsys.readouterr().out
+    for word in ("omega_before_rad_s", "omega1", "3 to 60 rad/s", "noise_grey", "format"):
+        assert word in said
+
+
+def test_help_lists_the_scenes_and_an_example(capsys):
+    assert run(["render", "--help"]) == 0
+    said = capsys.readouterr().out
+    assert "A leg that swings about the knee kicks a football" in said
+    assert "vml render soccer_kick --set" in said
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["render", "socer", "-o", "x"], "scene: expected one of"),
+        (["render", "soccer_kick"], "--out: expected a folder"),
+        (["render", "soccer_kick", "--set", "e=2", "-o", "x"], "restitution: expected 0.05 to 1, got 2."),
+        (["render", "soccer_kick", "--set", "q=2", "-o", "x"], "--set q: expected one of"),
+        (["render", "soccer_kick", "--set", "px_per_m=900", "-o", "x"], "soccer_kick: expected an honest impact"),
+    ],
+)
+def test_a_mistake_is_one_line_and_exit_code_2(arguments, words, capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert run(arguments) == 2
+    said = capsys.readouterr().err.strip()
+    assert words in said
+    assert "\n" not in said
+    assert not list(tmp_path.iterdir())

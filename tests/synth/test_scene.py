@@ -1,0 +1,89 @@
+"""The registry of scenes and what `--set` understands."""
+
+import subprocess
+import sys
+
+import pytest
+
+from vml_course.errors import InputError, NumberError, OutOfRangeError, UnknownNameError
+from vml_course.model.quantity import quantities_of
+from vml_course.synth.scene import scene_class, scene_names
+from vml_course.synth.settings import make_settings, read_settings, settable
+from vml_course.synth.simulate import simulate
+
+
+@pytest.mark.parametrize("name", scene_names())
+def test_every_scene_is_honest_with_its_defaults(name):
+    kind = scene_class(name)
+    truth = simulate(kind(), kind.default_camera, seed=0)
+    assert truth.scene == name == kind.name
+    assert set(kind.vector) <= set(truth.points)
+    assert all(item.about for item in quantities_of(kind).values())
+
+
+def test_an_unknown_scene_is_told_with_those_that_exist():
+    with pytest.raises(UnknownNameError, match=r"scene: expected one of .*soccer_kick.*, got 'socer'"):
+        scene_class("socer")
+
+
+def test_a_file_dropped_into_the_folder_is_a_scene(tmp_path):
+    """Tried in a process of its own, with a second folder on the package's path."""
+    (tmp_path / "toe_poke.py").write_text(
+        "from dataclasses import dataclass\n"
+        "from typing import ClassVar\n"
+        "from vml_course.synth.scenes.soccer_kick import SoccerKick\n"
+        "@dataclass(frozen=True)\n"
+        "class ToePoke(SoccerKick):\n"
+        "    name: ClassVar[str] = 'toe_poke'\n"
+        "    title: ClassVar[str] = 'A poke with the toe'\n"
+    )
+    code = (
+        f"import vml_course.synth.scenes as s; s.__path__.append({str(tmp_path)!r})\n"
+        "from vml_course.cli import main; main(['render', '--help'])"
+    )
+    shown = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert "A poke with the toe" in shown.stdout
+    assert "soccer_kick" in shown.stdout
+
+
+def test_values_are_set_by_name_or_symbol_on_scene_camera_and_recording():
+    made = read_settings("soccer_kick", ["e=11/15", "ball_mass_kg=0.45", "fps=240", "crf=20", "format=avi"])
+    assert made.scene.restitution == 11 / 15
+    assert made.scene.ball_mass_kg == 0.45
+    assert made.camera.fps == 240
+    assert (made.recording.crf, made.recording.format) == (20, "avi")
+
+
+def test_a_variants_mapping_makes_the_same_settings():
+    assert make_settings("soccer_kick", {"e": 0.5, "fps": 240}) == read_settings("soccer_kick", ["e=0.5", "fps=240"])
+
+
+@pytest.mark.parametrize(
+    ("text", "error", "words"),
+    [
+        ("zeta=1", UnknownNameError, "zeta: expected one of .*restitution"),
+        ("e", InputError, "--set: expected NAME=VALUE"),
+        ("e=fast", NumberError, "e: expected"),
+        ("e=1/0", NumberError, "e: expected"),
+        ("e=1.5", OutOfRangeError, "restitution: expected 0.05 to 1, got 1.5"),
+        ("m=0", OutOfRangeError, "ball_mass_kg: expected 0.05 to 2 kg"),
+        ("format=gif", UnknownNameError, "format: expected one of mp4, avi"),
+        ("width_px=641", InputError, "width_px: expected an even number"),
+    ],
+)
+def test_what_cannot_be_set_is_told_in_one_line(text, error, words):
+    with pytest.raises(error, match=words) as caught:
+        read_settings("soccer_kick", [text])
+    assert "\n" not in str(caught.value)
+
+
+def test_a_name_and_its_symbol_may_not_both_be_set():
+    with pytest.raises(InputError, match="one value"):
+        read_settings("soccer_kick", ["e=0.5", "restitution=0.6"])
+
+
+def test_what_can_be_set_has_units_ranges_and_meanings():
+    known = settable("soccer_kick")
+    assert known["inertia_kg_m2"].symbol == "I"
+    assert known["inertia_kg_m2"].unit == "kg m^2"
+    assert all(item.about and item.low <= item.default <= item.high for item in known.values())

@@ -1,0 +1,59 @@
+"""A made video holds the pictures of its truth and nothing of its numbers."""
+
+import numpy as np
+import pytest
+
+from vml_course.errors import SceneRefusedError
+from vml_course.io.truth import read_truth_csv, read_truth_json
+from vml_course.io.video import probe, read_frames
+from vml_course.synth.render import render
+from vml_course.synth.settings import read_settings
+from vml_course.usecases.make_video import make_video
+
+SMALL = ["fps=240", "width_px=640", "height_px=360", "px_per_m=250", "origin_x_px=210", "origin_y_px=100"]
+CODEC_GREY = 6.0  # root mean square difference of a decoded picture
+
+
+def make(folder, *texts, seed=4, **more):
+    made = read_settings("soccer_kick", [*SMALL, *texts])
+    return make_video(made.scene, made.camera, made.recording, seed, folder, **more), made
+
+
+@pytest.mark.parametrize("kind", ["mp4", "avi"])
+def test_the_video_shows_what_was_rendered(tmp_path, kind):
+    video, made = make(tmp_path, f"format={kind}")
+    info = probe(video.video)
+    assert (info.width_px, info.height_px, info.frame_count) == (640, 360, len(video.truth.time_s))
+    assert info.fps == pytest.approx(240)
+    pairs = zip(read_frames(video.video), render(video.truth, made.recording), strict=True)
+    for decoded, drawn in pairs:
+        difference = decoded.luma.astype(float) - drawn.luma
+        assert np.sqrt((difference**2).mean()) < CODEC_GREY
+        assert abs(difference.mean()) < 0.5
+
+
+def test_the_truth_lies_beside_the_video(tmp_path):
+    video, _ = make(tmp_path)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["truth.csv", "truth.json", "video.mp4"]
+    assert np.array_equal(read_truth_json(tmp_path / "truth.json").pose, video.truth.pose)
+    assert len(read_truth_csv(tmp_path / "truth.csv")["frame"]) == len(video.truth.time_s)
+
+
+def test_the_video_tells_nothing_of_its_truth(tmp_path):
+    video, _ = make(tmp_path, "e=0.6125", seed=987654)
+    content = video.video.read_bytes()
+    for word in (b"soccer", b"0.6125", b"987654", b"vml", b"restitution", str(tmp_path).encode()):
+        assert word not in content
+
+
+def test_progress_counts_the_pictures(tmp_path):
+    told = []
+    video, _ = make(tmp_path, progress=lambda done, total: told.append((done, total)))
+    frames = len(video.truth.time_s)
+    assert told == [(k, frames) for k in range(1, frames + 1)]
+
+
+def test_a_refused_scene_leaves_no_folder(tmp_path):
+    with pytest.raises(SceneRefusedError):
+        make(tmp_path / "new", "time_after_s=0.04", "omega1=50")
+    assert not (tmp_path / "new").exists()
