@@ -8,6 +8,7 @@ taps for nothing. Only the crop around a block is filtered, never the frame.
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 from numba import njit, uint32
@@ -23,7 +24,7 @@ SLOPE = (-0.5, 0.0, 0.5)  # and its derivative
 f4 = np.float32
 
 # Division by zero gives infinity, as in numpy: no exception, and none of its code to compile.
-KERNEL = {"nogil": True, "cache": True, "error_model": "numpy"}
+KERNEL: dict[str, Any] = {"nogil": True, "cache": True, "error_model": "numpy"}
 
 
 def prefilter_taps(blur_px: float = 0.0) -> Float32Array:

@@ -24,7 +24,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from vml_course.correlate.bspline import KERNEL, f4, sample_row, spline_crop
-from vml_course.correlate.template import Template
+from vml_course.correlate.template import LAGS, Template
 
 FloatArray = NDArray[np.float64]
 
@@ -32,6 +32,8 @@ MARGIN = 4  # px that a block may move before its crop is cut again
 LARGEST_STEP = 6.0  # px at the corner, one iteration
 SMALLEST_GAIN = 0.5  # share of the contrast ratio; a poor start must not turn into a giant step
 LARGEST_STRETCH = 3.0
+BLANK_VARIANCE = 0.01  # grey levels squared; float32 sums tell no less from nothing
+TILE = 15  # px; a codec moves its pieces of 8 to 16 px by fractions of a pixel, each its own way
 
 
 class Outcome(IntEnum):
@@ -114,7 +116,7 @@ def sample_and_sum(crop, local, template, sampled, sums):  # type: ignore[no-unt
     for i in range(n):
         down = template.top + i
         x, y = local[0] + local[2] * left + local[3] * down, local[1] + local[4] * left + local[5] * down
-        f, w, r, d = sampled[i], template.weight[i], template.values[i], template.descent[:, i]
+        f, w, r, d = sampled[i], template.weight[i], template.values[i], template.descent[i]
         sample_row(flat, stride, f4(x), f4(y), f4(local[2]), f4(local[4]), index, lanes, f)
         s0, s1, s2 = f4(0), f4(0), f4(0)
         a, b, c, e, g, h = f4(0), f4(0), f4(0), f4(0), f4(0), f4(0)
@@ -181,7 +183,7 @@ def compose(pose, step, rigid):  # type: ignore[no-untyped-def] # noqa: ANN001, 
 def gauss_newton_step(template, sums, step):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN201
     """Write the six parameters of a step; return how far a corner moves at most, -1 for a blank picture."""
     spread = sums[1] - sums[0] * sums[0] / template.total
-    if spread <= 1e-6 * template.total:
+    if spread <= BLANK_VARIANCE * template.total:
         return -1.0
     gain = max(sums[2] / template.energy, SMALLEST_GAIN * np.sqrt(spread / template.energy))
     for k in range(6):
@@ -215,35 +217,77 @@ def residual_covariance(residual, dy, dx):  # type: ignore[no-untyped-def] # noq
 
 
 @njit(**KERNEL)
+def variance_by_lags(template, residual, total):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN201
+    """Add to total (uu, uv, vv) the variance by the residual's covariance at short lags; return its variance."""
+    k, variance = 0, 0.0
+    for dy in range(LAGS + 1):
+        for dx in range(-LAGS if dy else 0, LAGS + 1):
+            c = residual_covariance(residual, dy, dx)
+            if k == 0:
+                variance = c
+            for q in range(3):
+                total[q] += (2.0 if k else 1.0) * c * template.pairs[k, q]
+            k += 1
+    return variance
+
+
+@njit(**KERNEL)
+def tile_sums(influence, residual, top, bottom, left, right):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN201
+    """Return what the residual of one tile of the block adds to u and v."""
+    u, v = 0.0, 0.0
+    for i in range(top, bottom):
+        su, sv = f4(0), f4(0)
+        for j in range(left, right):
+            su += influence[0, i, j] * residual[i, j]
+            sv += influence[1, i, j] * residual[i, j]
+        u += np.float64(su)
+        v += np.float64(sv)
+    return u, v
+
+
+@njit(**KERNEL)
+def variance_by_tiles(template, residual, total):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN201
+    """Add to total (uu, uv, vv) the variance by tiles that err together."""
+    n, m = residual.shape
+    rows, columns = max(3, (n + TILE // 2) // TILE), max(3, (m + TILE // 2) // TILE)
+    for i in range(rows):
+        for j in range(columns):
+            u, v = tile_sums(
+                template.influence,
+                residual,
+                i * n // rows,
+                (i + 1) * n // rows,
+                j * m // columns,
+                (j + 1) * m // columns,
+            )
+            total[0] += u * u
+            total[1] += u * v
+            total[2] += v * v
+    tiles = rows * columns
+    for q in range(3):
+        total[q] *= tiles / (tiles - 3.0)
+
+
+@njit(**KERNEL)
 def judge(template, sampled, sums, pose, report):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN201
-    """Write ZNCC, sigma, gain and residual of the block at its last place; see the module's formula."""
+    """Write ZNCC, sigma, gain and residual of the block at its last place; see the module's formulas."""
     n, m = sampled.shape
     mean = sums[0] / template.total
     spread = sums[1] - sums[0] * mean
     gain = sums[2] / template.energy
-    report[1], report[3] = sums[2] / np.sqrt(template.energy * spread), gain
     for i in range(n):
         for j in range(m):
             sampled[i, j] = template.weight[i, j] * (sampled[i, j] - f4(mean) - f4(gain) * template.values[i, j])
-    lags = int(np.sqrt(template.influence.shape[0] / 2.0))  # 2 L**2 + 2 L + 1 lags in the half plane
-    uu, uv, vv, k = 0.0, 0.0, 0.0, 0
-    for dy in range(lags + 1):
-        for dx in range(-lags if dy else 0, lags + 1):
-            c = residual_covariance(sampled, dy, dx)
-            if k == 0:
-                report[4] = np.sqrt(c * n * m / max(template.total - 8.0, 1.0))
-            else:
-                c *= 2.0
-            uu, uv, vv = (
-                uu + c * template.influence[k, 0],
-                uv + c * template.influence[k, 1],
-                vv + c * template.influence[k, 2],
-            )
-            k += 1
-    white = report[4] ** 2 * (template.influence[0, 0] + template.influence[0, 2])
+    lags, tiles = np.zeros(3), np.zeros(3)
+    spread_left = variance_by_lags(template, sampled, lags) * n * m / max(template.total - 8.0, 1.0)
+    variance_by_tiles(template, sampled, tiles)
     xx, xy, yx, yy = pose[2], pose[3], pose[4], pose[5]
-    trace = (xx * xx + yx * yx) * uu + 2.0 * (xx * xy + yx * yy) * uv + (xy * xy + yy * yy) * vv
-    report[2] = np.sqrt(0.5 * max(trace, 0.1 * white)) / abs(gain)
+    a, b, c = xx * xx + yx * yx, 2.0 * (xx * xy + yx * yy), xy * xy + yy * yy
+    trace = max(a * lags[0] + b * lags[1] + c * lags[2], a * tiles[0] + b * tiles[1] + c * tiles[2])
+    report[1] = sums[2] / np.sqrt(template.energy * spread)
+    report[2] = np.sqrt(0.5 * trace) / abs(gain)
+    report[3] = gain
+    report[4] = np.sqrt(spread_left)
 
 
 @njit(**KERNEL)
@@ -256,7 +300,7 @@ def iterate(image, template, pose, limits, report):  # type: ignore[no-untyped-d
     start = pose.copy()
     sampled, sums, step, local = np.empty((n, m), np.float32), np.empty(9), np.empty(6), pose.copy()
     crop, x0, y0 = np.empty((0, 0), np.float32), 0, 0
-    outcome = 1
+    outcome, before = 1, 0.0
     report[0] = 0
     while report[0] < limits[0] and outcome == 1:
         problem = place(image, pose, start, limits[2], template)
@@ -277,8 +321,9 @@ def iterate(image, template, pose, limits, report):  # type: ignore[no-untyped-d
             return 4
         compose(pose, step, template.rigid)
         report[0] += 1
-        if moved < limits[1]:
-            outcome = 0
+        if moved < limits[1] or (moved < 0.1 and moved * moved < 0.3 * limits[1] * before):
+            outcome = 0  # the steps shrink geometrically: the next would be well below the tolerance
+        before = moved
     if outcome == 0:
         judge(template, sampled, sums, pose, report)
     return outcome

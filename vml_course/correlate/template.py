@@ -18,6 +18,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vml_course.correlate.bspline import (
+    SLOPE,
+    SMOOTH,
     Float32Array,
     FloatArray,
     gradients_at_pixels,
@@ -32,7 +34,7 @@ WARPS: dict[str, FloatArray] = {
     "rigid": np.array([[1.0, 0, 0, 0, 0, 0], [0, 1.0, 0, 0, 0, 0], [0, 0, 0, -1.0, 1.0, 0]]).T,
     "translation": np.eye(6)[:, :2],
 }
-LAGS = 5
+LAGS = 2
 
 Scalar = TypeVar("Scalar", bound=np.generic)
 
@@ -46,12 +48,15 @@ class Template(NamedTuple):
         The block, its weighted mean removed.
     weight : float32 array, shape (n, m)
         Share of each pixel, 0 to 1.
-    descent : float32 array, shape (6, n, m)
-        Weighted steepest-descent images, orthogonal to 1 and to the block.
+    descent : float32 array, shape (n, 6, m)
+        Weighted steepest-descent images, orthogonal to 1 and to the block; all six rows of pixels side by side,
+        as the kernel reads them.
     solve : float array, shape (6, 6)
         From their products with a picture to the parameters, within the allowed warp.
-    influence : float array, shape (lags, 3)
-        Sums of products of the influence functions of u and v (uu, uv, vv) over pairs of pixels, by lag.
+    influence : float32 array, shape (2, n, m)
+        What one grey level at a pixel adds to u and to v, at gain 1.
+    pairs : float array, shape (lags, 3)
+        Sums of products of the influences (uu, uv, vv) over pairs of pixels, by lag.
     taps : float32 array
         Filter that both pictures pass through.
     mean, energy, total : float
@@ -66,7 +71,8 @@ class Template(NamedTuple):
     weight: Float32Array
     descent: Float32Array
     solve: FloatArray
-    influence: FloatArray
+    influence: Float32Array
+    pairs: FloatArray
     taps: Float32Array
     mean: float
     energy: float
@@ -158,12 +164,14 @@ def build_template(
     descent = _orthogonal(steepest_descent(patch), values, w, energy)
     solve = solving_matrix(normal_matrix(descent, w), warp)
     weighted = descent * w
+    influence = np.tensordot(solve[:2], weighted, 1)
     return Template(
         read_only(values.astype(np.float32)),
         read_only(w),
-        read_only(weighted.astype(np.float32)),
+        read_only(weighted.transpose(1, 0, 2).astype(np.float32)),
         read_only(solve),
-        read_only(_influence_by_lag(np.tensordot(solve[:2], weighted, 1), min(LAGS, min(w.shape) // 4))),
+        read_only(influence.astype(np.float32)),
+        read_only(_pairs_by_lag(influence)),
         read_only(prefilter_taps(blur_px)),
         mean,
         energy,
@@ -174,7 +182,7 @@ def build_template(
     )
 
 
-def normal_matrix(descent: FloatArray, weight: Float32Array) -> FloatArray:
+def normal_matrix(descent: FloatArray, weight: Float32Array | FloatArray) -> FloatArray:
     """Return the Hessian of the six parameters, shape (6, 6), of steepest-descent images (6, n, m)."""
     flat = descent.reshape(6, -1)
     return np.asarray((flat * weight.ravel()) @ flat.T)
@@ -193,11 +201,32 @@ def projected_hessian(patch: Patch) -> FloatArray:
     return normal_matrix(_orthogonal(steepest_descent(patch), values, ones, float((values**2).sum())), ones)
 
 
-def corner_sigma_px(solve: FloatArray, noise_grey: float, half_px: float) -> float:
-    """Return the standard deviation of the worst corner's place, px, for white noise in both pictures."""
-    corners = np.array([[x, y] for x in (-half_px, half_px) for y in (-half_px, half_px)])
-    variances = []
-    for x, y in corners:
+def significant_hessian(patch: Patch, noise_grey: float, blur_px: float = 0.0) -> FloatArray:
+    """Return the Hessian (6, 6) without what white noise adds to it, and eight times that part's own scatter.
+
+    The gradients of noise look like texture: around a lone dot they would vouch for its rotation.
+    """
+    taps = prefilter_taps(blur_px).astype(np.float64)
+    both = np.concatenate([taps[:0:-1], taps])
+    gain = (np.convolve(both, SLOPE) ** 2).sum() * (np.convolve(both, SMOOTH) ** 2).sum()
+    n, m = patch.values.shape
+    one, zero = np.ones((n, m)), np.zeros((n, m))
+    plain = patch._replace(across=one, down=zero), patch._replace(across=zero, down=one)
+    offsets = sum(normal_matrix(steepest_descent(axis), one) for axis in plain)
+    scatter = 1.0 + 8.0 * np.sqrt(2.0 / (n * m))
+    return np.asarray(projected_hessian(patch) - scatter * gain * noise_grey**2 * offsets)
+
+
+def corner_sigma_px(hessian: FloatArray, warp: str, noise_grey: float, half_px: float) -> float:
+    """Return the standard deviation of the worst corner's place, px, for white noise in both pictures.
+
+    Infinite when the block cannot tell the parameters of this warp apart.
+    """
+    basis = WARPS[warp] / np.array([1.0, 1.0, *4 * [half_px]])[:, None]  # all in px at the corner
+    if np.linalg.eigvalsh(basis.T @ hessian @ basis)[0] <= 0.0:
+        return float("inf")
+    solve, variances = solving_matrix(hessian, warp), []
+    for x, y in [(x, y) for x in (-half_px, half_px) for y in (-half_px, half_px)]:
         move = np.array([[1.0, 0, x, y, 0, 0], [0, 1.0, 0, 0, x, y]])
         variances.append(np.trace(move @ solve @ move.T) / 2)
     return float(np.sqrt(2.0 * max(variances)) * noise_grey)
@@ -210,12 +239,12 @@ def _orthogonal(descent: FloatArray, values: FloatArray, weight: Float32Array, e
     return np.asarray(flat - along).reshape(descent.shape)
 
 
-def _influence_by_lag(influence: FloatArray, lags: int) -> FloatArray:
+def _pairs_by_lag(influence: FloatArray) -> FloatArray:
     """Return sums of K(i) K(i + lag) for lags in a half plane, rows down first: shape (lags, 3)."""
     n, m = influence.shape[1:]
     rows = []
-    for dy in range(lags + 1):
-        for dx in range(-lags if dy else 0, lags + 1):
+    for dy in range(LAGS + 1):
+        for dx in range(-LAGS if dy else 0, LAGS + 1):
             a = influence[:, : n - dy, max(0, -dx) : m - max(0, dx)]
             b = influence[:, dy:, max(0, dx) : m + min(0, dx)]
             cross = np.einsum("aij,bij->ab", a, b)

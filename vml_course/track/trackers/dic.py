@@ -15,9 +15,8 @@ from vml_course.correlate.template import (
     corner_sigma_px,
     cut_patch,
     first_pixel,
-    projected_hessian,
     read_only,
-    solving_matrix,
+    significant_hessian,
 )
 from vml_course.correlate.texture import noise_grey, texture_of
 from vml_course.errors import SeedError
@@ -105,7 +104,7 @@ class Dic:
         patch = cut_patch(luma, (x, y), size, self.blur)
         _check_texture(patch.values, name, (x, y))
         noise = noise_grey(patch.values)
-        hessian = projected_hessian(patch)
+        hessian = significant_hessian(patch, noise, self.blur)
         template = build_template(patch, choose_warp(hessian, noise, 0.5 * (size - 1)), blur_px=self.blur)
         sigma = np.sqrt(np.trace(template.solve[:2, :2])) * noise  # sqrt(2): both pictures are noisy; rms of x and y
         return Reference(template, patch.values.astype(np.float32), float(sigma))
@@ -116,14 +115,8 @@ METHOD = Dic
 
 def choose_warp(hessian: FloatArray, noise: float, half_px: float) -> str:
     """Return the most general warp that a block can hold, from its Hessian (6, 6); see `Dic` for the rule."""
-    for warp in WARPS:
-        try:
-            sigma = corner_sigma_px(solving_matrix(hessian, warp), noise, half_px)
-        except np.linalg.LinAlgError:
-            continue
-        if sigma <= LARGEST_CORNER_SIGMA_PX:
-            return warp
-    return "translation"
+    held = (warp for warp in WARPS if corner_sigma_px(hessian, warp, noise, half_px) <= LARGEST_CORNER_SIGMA_PX)
+    return next(held, "translation")
 
 
 def _check_fits(luma: Luma, name: str, point: tuple[float, float], size: int) -> None:
