@@ -77,6 +77,7 @@ def frame_checks(scene: Scene, camera: Camera, clock: Clock, pose: FloatArray) -
     turn = np.abs(pose[:, 0, 2] - ideal[:, 0, 2]).max() * reach
     yield Check("frame positions against closed form, px", float(max(shift, turn) * camera.px_per_m), FRAME_PX)
     near = np.abs(clock.since_impact_s) <= WINDOW_S + 1e-9
+    near[0] = True  # tracking starts there
     yield Check("bodies outside the picture, px", _outside_px(scene, camera, pose[near]), 0.0)
     marks = camera.to_px(np.array(list(scene.marks_m().values())))
     yield Check("scale marks outside the picture, px", _beyond_px(camera, marks, 0.0), 0.0)
