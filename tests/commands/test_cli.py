@@ -1,0 +1,61 @@
+import pytest
+
+from vml_course.cli import run
+
+
+@pytest.fixture
+def vml(capsys):
+    def call(*arguments):
+        code = run([str(argument) for argument in arguments])
+        said = capsys.readouterr()
+        return code, said.out, said.err
+
+    return call
+
+
+def one_line(text):
+    return text.count("\n") == 1 and "Traceback" not in text
+
+
+COMMANDS = ("demo", "render", "clip", "track", "solve", "course new", "handout", "grade", "gradebook show", "check")
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_every_command_has_help_with_an_example(vml, command):
+    code, out, _ = vml(*command.split(), "--help")
+    assert code == 0
+    assert f"vml {command}" in out.replace("\n", " ")
+    assert "xample" in out
+
+
+def test_vml_alone_shows_its_commands(vml):
+    code, out, _ = vml()
+    assert code == 0
+    assert all(command.split()[0] in out for command in COMMANDS)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "names"),
+    [
+        (["nonsense"], "nonsense"),
+        (["render"], "SCENE"),
+        (["render", "no_such_scene", "-o", "x"], "soccer_kick"),
+        (["render", "soccer_kick", "--set", "e=2", "-o", "x"], "restitution"),
+        (["render", "soccer_kick", "--set", "mass=2", "-o", "x"], "mass"),
+        (["render", "soccer_kick", "--set", "e", "-o", "x"], "NAME=VALUE"),
+        (["track", "no_such_file.mp4", "-p", "a=1,2", "-o", "x.csv"], "no_such_file.mp4"),
+        (["clip", "no_such_file.mp4", "--start", "0", "--end", "1", "-o", "x.avi"], "no_such_file.mp4"),
+        (["solve", "no_such_table.csv", "--model", "fixed-pivot"], "no_such_table.csv"),
+        (["handout", "soccer-kick", "--course", "no_such_course"], "no_such_course"),
+        (["grade", "no_such_file.xlsx", "--course", "no_such_course"], "no_such_course"),
+        (["check", "no_such_file.xlsx"], "no_such_file.xlsx"),
+    ],
+)
+def test_a_mistake_is_one_line_and_exit_code_2(vml, tmp_path, monkeypatch, arguments, names):
+    monkeypatch.chdir(tmp_path)
+    code, out, err = vml(*arguments)
+    assert code == 2
+    assert one_line(err), err
+    assert names in err
+    assert out == ""
+    assert list(tmp_path.iterdir()) == []
