@@ -9,6 +9,8 @@ import typer
 
 
 def register(app: typer.Typer) -> None:
-    """Add every command of this folder to `app`; each file has one `register(app)`."""
+    """Add every command of this folder to `app`; each file has one `register(app)`, but for `_` ones, which help."""
     for module in pkgutil.iter_modules(__path__):
+        if module.name.startswith("_"):
+            continue
         importlib.import_module(f"{__name__}.{module.name}").register(app)

@@ -19,7 +19,7 @@ from av.container import OutputContainer
 from av.video.stream import VideoStream
 
 from vml_course.errors import FileFormatError, InputError, VideoError
-from vml_course.io.files import replacing
+from vml_course.io.files import check_folder, replacing
 from vml_course.model.frame import Picture
 
 FULL_RANGE, BT601 = 2, 6
@@ -81,6 +81,17 @@ def write_video(path: Path, pictures: Iterable[Picture], fps: float | Fraction, 
     with replacing(path) as temporary, av.open(str(temporary), "w", options=kind.container) as container:
         stream = _add_stream(container, kind, rate, first.luma.shape)
         return _encode(container, stream, _checked(path, chain([first], source)), kind)
+
+
+def check_video_name(path: Path) -> None:
+    """Refuse a name that no video can be written to, before anything is measured.
+
+    Raises
+    ------
+    FileFormatError, FileMissingError
+    """
+    _kind(path, 0)
+    check_folder(path)
 
 
 def exact_rate(fps: float | Fraction) -> Fraction:

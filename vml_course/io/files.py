@@ -22,8 +22,7 @@ def replacing(path: Path) -> Iterator[Path]:
     FileFormatError
         When the file cannot be replaced, for example because it is open in Excel.
     """
-    if not path.parent.is_dir():
-        raise FileMissingError(str(path), "an existing folder to write into", f"no folder {path.parent}")
+    check_folder(path)
     temporary = path.with_name(f".{path.stem}-{secrets.token_hex(4)}{path.suffix}")
     try:
         yield temporary
@@ -34,6 +33,17 @@ def replacing(path: Path) -> Iterator[Path]:
         ) from error
     finally:
         temporary.unlink(missing_ok=True)
+
+
+def check_folder(path: Path) -> None:
+    """Refuse a file name whose folder does not exist.
+
+    Raises
+    ------
+    FileMissingError
+    """
+    if not path.parent.is_dir():
+        raise FileMissingError(str(path), "an existing folder to write into", f"no folder {path.parent}")
 
 
 def existing(path: Path) -> Path:

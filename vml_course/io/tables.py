@@ -7,6 +7,7 @@ from pathlib import Path
 
 from vml_course.errors import FileFormatError
 from vml_course.io.csv_file import write_csv
+from vml_course.io.files import check_folder
 from vml_course.io.mat import write_mat
 from vml_course.io.read_motion import motion_from_mat, motion_from_table
 from vml_course.io.xlsx import write_xlsx
@@ -28,10 +29,11 @@ def check_table_name(path: Path) -> None:
 
     Raises
     ------
-    FileFormatError
+    FileFormatError, FileMissingError
     """
     if path.suffix.lower() not in WRITERS:
         raise FileFormatError(path.name, f"a name ending in {', '.join(WRITERS)}", repr(path.suffix))
+    check_folder(path)
 
 
 def write_track(path: Path, tracked: Tracked) -> None:

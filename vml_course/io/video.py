@@ -82,14 +82,22 @@ def read_frames(path: Path, start: int = 0, end: int | None = None, step: int = 
     VideoError
         When the file is no video; or, on the way, at a damaged picture (it says up to which frame it is usable).
     """
-    index = index_video(Path(path))
-    wanted = _wanted(index, start, end, step)
-    return (Frame(number, index.time_s(number), luma) for number, luma in _read(index, wanted, luma_of))
+    return frames_of(index_video(Path(path)), start, end, step)
 
 
 def read_pictures(path: Path, start: int = 0, end: int | None = None, step: int = 1) -> Iterator[ColourFrame]:
     """Decode pictures with their colours; numbers, range and errors as in `read_frames`."""
-    index = index_video(Path(path))
+    return colours_of(index_video(Path(path)), start, end, step)
+
+
+def frames_of(index: PictureIndex, start: int, end: int | None, step: int) -> Iterator[Frame]:
+    """Do what `read_frames` does, for a video whose pictures are listed already."""
+    wanted = _wanted(index, start, end, step)
+    return (Frame(number, index.time_s(number), luma) for number, luma in _read(index, wanted, luma_of))
+
+
+def colours_of(index: PictureIndex, start: int, end: int | None, step: int) -> Iterator[ColourFrame]:
+    """Do what `read_pictures` does, for a video whose pictures are listed already."""
     wanted = _wanted(index, start, end, step)
     return (ColourFrame(number, index.time_s(number), picture) for number, picture in _read(index, wanted, picture_of))
 

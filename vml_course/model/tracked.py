@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 
 from vml_course.model.frame import VideoInfo
 from vml_course.model.motion import Calibration, Motion, VectorSeries
@@ -35,6 +36,11 @@ class Tracked:
         One standard deviation of the scale from the repeatability of a click, as a share.
     warnings : tuple of str
         What a person should know: variable rate, damage, lost points.
+    path : Path or None
+        The file that was read.
+    first_picture, picture_step : int
+        Row k of the track is picture `first_picture + k * picture_step` of that file. (A clip's frames
+        carry the numbers of the video that it was cut from, so `track.frame` may differ.)
     """
 
     track: Track
@@ -48,3 +54,6 @@ class Tracked:
     time_base: str = ""
     scale_relative_sd: float | None = None
     warnings: tuple[str, ...] = ()
+    path: Path | None = None
+    first_picture: int = 0
+    picture_step: int = 1

@@ -1,0 +1,164 @@
+"""`vml track`: points through a clip, by digital image correlation."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+if TYPE_CHECKING:
+    from vml_course.model.tracked import Tracked
+    from vml_course.usecases.estimate_track import TrackEstimate
+    from vml_course.usecases.summarise_track import PointSummary
+
+EXAMPLE = (
+    'Example: vml track kick.mp4 -p ball=513,480 -p foot=147,258 --fps 480 --scale "297,610,794,610=1 m" '
+    "-o kick.xlsx --overlay kick-overlay.mp4"
+)
+
+
+def register(app: typer.Typer) -> None:
+    """Add `track` to the commands."""
+    app.command("track", epilog=EXAMPLE)(track)
+
+
+def track(
+    video: Annotated[Path, typer.Argument(help="Video, or a clip of `vml clip` (frames keep the video's numbers).")],
+    points: Annotated[
+        list[str] | None,
+        typer.Option("-p", "--point", metavar="NAME=X,Y", help="A point in the first frame, px, y down. Repeatable."),
+    ] = None,
+    start: Annotated[int, typer.Option(help="First frame of the file, counted from 0.")] = 0,
+    end: Annotated[int | None, typer.Option(help="Last frame of the file; the last one when not given.")] = None,
+    step: Annotated[int, typer.Option(help="Take every STEP-th frame.")] = 1,
+    fps: Annotated[str | None, typer.Option(metavar="F", help="Frames per second when recorded.")] = None,
+    scale: Annotated[
+        str | None,
+        typer.Option(
+            metavar="X1,Y1,X2,Y2=LENGTH", help='Two points, px, and their distance, such as "10,20,110,20=22 cm".'
+        ),
+    ] = None,
+    origin: Annotated[
+        str | None, typer.Option(metavar="X,Y", help="World's origin, px; the bottom-left pixel when not given.")
+    ] = None,
+    axis_angle: Annotated[
+        float, typer.Option(metavar="DEG", help="Angle of the x axis from the horizontal, counter-clockwise.")
+    ] = 0.0,
+    vectors: Annotated[
+        list[str] | None,
+        typer.Option("--vector", metavar="NAME=TAIL:HEAD", help="A vector between two points. Repeatable."),
+    ] = None,
+    method: Annotated[str, typer.Option(help="Tracker; a wrong name lists those there are.")] = "dic",
+    block: Annotated[int | None, typer.Option(metavar="PX", help="Side of the block that is matched; 60 px.")] = None,
+    shutter: Annotated[
+        float | None, typer.Option(metavar="F", help="Share of the frame interval that the shutter is open, 0 to 1.")
+    ] = None,
+    estimate: Annotated[bool, typer.Option("--estimate", help="Say how long it will take, and end.")] = False,
+    out: Annotated[
+        list[Path] | None, typer.Option("-o", "--out", help="Table to write: .xlsx, .csv or .mat. Repeatable.")
+    ] = None,
+    overlay: Annotated[
+        Path | None, typer.Option(help="Video with points and vectors drawn over it: .mp4 or .avi.")
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print the result as JSON.")] = False,
+) -> None:
+    """Track points through a video and write where they are in every frame."""
+    from vml_course.commands._progress import progress
+    from vml_course.errors import InputError
+    from vml_course.usecases.estimate_track import estimate_track
+    from vml_course.usecases.export_track import check_outputs, export_track
+    from vml_course.usecases.summarise_track import summarise
+    from vml_course.usecases.track_clip import track_clip
+    from vml_course.usecases.track_words import read_request
+
+    given = {"block": block, "shutter": shutter}
+    words = {"fps": fps, "scale": scale, "origin": origin}
+    request = read_request(
+        video,
+        points or [],
+        vectors or [],
+        words,
+        start=start,
+        end=end,
+        step=step,
+        axis_angle_rad=math.radians(axis_angle),
+        method=method,
+        settings={name: value for name, value in given.items() if value is not None},
+    )
+    if estimate:
+        _print_estimate(estimate_track(request), as_json)
+        return
+    tables = out or []
+    if not tables and overlay is None:
+        raise InputError("-o", "a table or an overlay to write", "nothing", "Add -o track.xlsx.")
+    check_outputs(tables, overlay)
+    with progress(f"track {video.name}") as show:
+        tracked = track_clip(request, show)
+    with progress("draw overlay") as show:
+        written = export_track(tracked, tables, overlay, show)
+    for warning in tracked.warnings:
+        typer.echo(f"warning: {warning}", err=True)
+    _print(tracked, summarise(tracked), written, as_json)
+
+
+def _print_estimate(found: TrackEstimate, as_json: bool) -> None:
+    if as_json:
+        facts = {
+            "seconds": found.seconds,
+            "frames": found.frames,
+            "points": found.points,
+            "seconds_per_frame": found.seconds_per_frame,
+        }
+        typer.echo(json.dumps(facts, indent=1))
+        return
+    typer.echo(
+        f"about {found.seconds:.1f} s for {found.points} points in {found.frames} frames"
+        f" ({1e3 * found.seconds_per_frame:.1f} ms each). A smaller block or fewer points take less."
+    )
+
+
+def _print(tracked: Tracked, points: list[PointSummary], written: tuple[Path, ...], as_json: bool) -> None:
+    if as_json:
+        typer.echo(json.dumps(_facts(tracked, points, written), indent=1, ensure_ascii=False))
+        return
+    from rich import box
+    from rich.console import Console
+    from rich.table import Table
+
+    table = Table(box=box.SIMPLE_HEAD, padding=(0, 2, 0, 0))
+    for name in ("point", "found", "worst ZNCC", "sigma px (median)"):
+        table.add_column(name, no_wrap=True, justify="left" if name == "point" else "right")
+    for one in points:
+        table.add_row(one.name, f"{one.found} of {one.frames}", f"{one.worst_zncc:.3f}", f"{one.median_sigma_px:.4f}")
+    Console(highlight=False).print(table)
+    unit = f"{tracked.calibration.px_per_m:.6g} px/m" if tracked.calibration else "pixels only: no --scale"
+    typer.echo(f"{len(tracked.track.frame)} frames at {tracked.fps:.6g} 1/s, {unit}")
+    for path in written:
+        typer.echo(str(path))
+
+
+def _facts(tracked: Tracked, points: list[PointSummary], written: tuple[Path, ...]) -> dict[str, Any]:
+    frames = tracked.track.frame
+    return {
+        "video": tracked.video,
+        "frames": len(frames),
+        "first_frame": int(frames[0]),
+        "last_frame": int(frames[-1]),
+        "fps": tracked.fps,
+        "variable_rate": tracked.info.is_variable_rate,
+        "px_per_m": tracked.calibration.px_per_m if tracked.calibration else None,
+        "points": {
+            one.name: {
+                "found": one.found,
+                "lost": one.frames - one.found,
+                "worst_zncc": one.worst_zncc,
+                "median_sigma_px": one.median_sigma_px,
+            }
+            for one in points
+        },
+        "files": [str(path) for path in written],
+        "warnings": list(tracked.warnings),
+    }

@@ -1,0 +1,217 @@
+"""Track points through a clip, and turn pixels and frames into metres and seconds."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+import numpy as np
+
+from vml_course.errors import InputError, UnknownNameError
+from vml_course.io.source import Source, open_source
+from vml_course.kinetics.calibrate import calibrate, relative_scale_sd
+from vml_course.kinetics.vectors import vector_series
+from vml_course.model.frame import Frame
+from vml_course.model.motion import Calibration, VectorSeries
+from vml_course.model.track import Seed, Sighting, Track
+from vml_course.model.tracked import Tracked
+from vml_course.track.run import run
+from vml_course.track.tracker import make_tracker
+from vml_course.usecases.cut_clip import warnings_of
+
+__all__ = ["TrackRequest", "Tracked", "VectorRequest", "track_clip"]
+
+Progress = Callable[[int, int], None]
+
+
+@dataclass(frozen=True, slots=True)
+class VectorRequest:
+    """A vector between two tracked points."""
+
+    name: str
+    tail: str
+    head: str
+
+
+@dataclass(frozen=True)
+class TrackRequest:
+    """What to track, where, and in which units.
+
+    Attributes
+    ----------
+    video : Path
+        A video, or a clip with its note: then frames and times are those of the source.
+    seeds : tuple of Seed
+        Where the points are in the first picture.
+    start, end, step : int
+        Pictures of the file, `end` inclusive (None: the last).
+    fps : float or None
+        Frames per second when recorded; None takes the file's.
+    stick_px : (x1, y1, x2, y2) or None
+        Two points of known distance; None stays in pixels.
+    length_m : float or None
+        That distance; `length_text` is what was typed.
+    origin_px : (float, float) or None
+        Where the world's origin is seen; None: the centre of the bottom-left pixel.
+    axis_angle_rad : float
+        Angle of the x axis from the picture's horizontal, counter-clockwise.
+    vectors : tuple of VectorRequest
+    method : str
+        Name of a tracker; `settings` are its own, such as `block`.
+    """
+
+    video: Path
+    seeds: tuple[Seed, ...]
+    start: int = 0
+    end: int | None = None
+    step: int = 1
+    fps: float | None = None
+    stick_px: tuple[float, ...] | None = None
+    length_m: float | None = None
+    length_text: str = ""
+    origin_px: tuple[float, float] | None = None
+    axis_angle_rad: float = 0.0
+    vectors: tuple[VectorRequest, ...] = ()
+    method: str = "dic"
+    settings: Mapping[str, float] = field(default_factory=dict)
+
+
+def track_clip(request: TrackRequest, progress: Progress | None = None) -> Tracked:
+    """Track every point of a request from its first picture to its last.
+
+    Raises
+    ------
+    FileMissingError, VideoError, FrameRangeError
+        When the pictures cannot be read.
+    UnknownNameError, InputError, SeedError
+        When the request does not fit together, or a point cannot be followed from where it was placed.
+    """
+    check_request(request)
+    source = open_source(request.video)
+    fps, frames = clock(request, source)
+    calibration = _calibration(request, source)
+    total = picture_count(request, source)
+    track = run(
+        make_tracker(request.method, **request.settings),
+        frames,
+        request.seeds,
+        fps=None if source.is_variable_rate else fps,
+        on_frame=_counter(total, progress),
+    )
+    return _tracked(request, source, track, calibration, fps)
+
+
+def check_request(request: TrackRequest) -> None:
+    """Refuse what cannot work before any picture is decoded.
+
+    Raises
+    ------
+    UnknownNameError, InputError
+    """
+    points = [seed.name for seed in request.seeds]
+    _check_names("point", points)
+    _check_names("vector", [vector.name for vector in request.vectors])
+    for vector in request.vectors:
+        for end in (vector.tail, vector.head):
+            if end not in points:
+                raise UnknownNameError(f"vector {vector.name}", end, points)
+        if vector.tail == vector.head:
+            raise InputError(f"vector {vector.name}", "two different points", f"{vector.tail} twice")
+    make_tracker(request.method, **request.settings)
+
+
+def _check_names(kind: str, names: Sequence[str]) -> None:
+    doubled = [name for place, name in enumerate(names) if name in names[:place]]
+    if doubled:
+        raise InputError(kind, "each name once", f"{doubled[0]} twice")
+    if not all(name.strip() for name in names):
+        raise InputError(kind, "a name", "none")
+
+
+def clock(request: TrackRequest, source: Source) -> tuple[float, Iterator[Frame]]:
+    """Return frames per second when recorded, and the pictures with times on that clock.
+
+    A given rate stretches the time stamps: slow-motion clips are stored to play at 30 1/s.
+
+    Raises
+    ------
+    InputError
+        When neither the request nor the file says a rate.
+    """
+    fps = request.fps if request.fps is not None else float(source.rate)
+    if not (np.isfinite(fps) and fps > 0):
+        raise InputError("fps", "the frames per second when recorded, above 0", f"{fps:g}")
+    stretch = float(source.rate) / fps
+    frames = source.frames(request.start, request.end, request.step)
+    return fps, (replace(frame, time_s=frame.time_s * stretch) for frame in frames)
+
+
+def picture_count(request: TrackRequest, source: Source) -> int:
+    """Return how many pictures the request asks for."""
+    end = source.info.frame_count - 1 if request.end is None else request.end
+    return len(range(request.start, end + 1, request.step))
+
+
+def _calibration(request: TrackRequest, source: Source) -> Calibration | None:
+    if request.stick_px is None or request.length_m is None:
+        return None
+    return calibrate(
+        request.stick_px,
+        request.length_m,
+        origin_px=_origin(request, source),
+        axis_angle_rad=request.axis_angle_rad,
+        length_text=request.length_text or f"{request.length_m:g} m",
+    )
+
+
+def _origin(request: TrackRequest, source: Source) -> tuple[float, float]:
+    return request.origin_px or (0.0, float(source.info.height_px - 1))
+
+
+def _counter(total: int, progress: Progress | None) -> Callable[[Frame, Sighting], None] | None:
+    if progress is None:
+        return None
+    done = iter(range(1, total + 1))
+
+    def count(frame: Frame, sighting: Sighting) -> None:
+        del frame, sighting
+        progress(next(done), total)
+
+    return count
+
+
+def _tracked(
+    request: TrackRequest, source: Source, track: Track, calibration: Calibration | None, fps: float
+) -> Tracked:
+    axes = calibration or Calibration(1.0, _origin(request, source), request.axis_angle_rad)  # 1 px = 1 unit
+    stamps = "time stamps of the file" if source.is_variable_rate else "frame number / fps"
+    return Tracked(
+        track=track,
+        info=source.info,
+        calibration=calibration,
+        motion=calibration.apply(track) if calibration else None,
+        vectors=tuple(_vector(vector, track, axes) for vector in request.vectors),
+        fps=fps,
+        video=source.name,
+        sha256=source.sha256,
+        time_base=f"{stamps}, 0 at the first frame",
+        scale_relative_sd=relative_scale_sd(calibration.stick_px) if calibration and calibration.stick_px else None,
+        warnings=(*warnings_of(source), *_lost_points(track)),
+        path=source.path,
+        first_picture=request.start,
+        picture_step=request.step,
+    )
+
+
+def _vector(vector: VectorRequest, track: Track, axes: Calibration) -> VectorSeries:
+    tail, head = (axes.to_m(track.xy_px[:, track.point_index(end)]) for end in (vector.tail, vector.head))
+    return vector_series(vector.name, vector.tail, vector.head, tail, head)
+
+
+def _lost_points(track: Track) -> Iterator[str]:
+    for number, point in enumerate(track.points):
+        lost = np.flatnonzero(track.is_lost[:, number])
+        if len(lost):
+            first = int(track.frame[lost[0]])
+            yield f"{point}: lost in {len(lost)} of {len(track.frame)} frames, first in frame {first}."

@@ -1,0 +1,111 @@
+"""A tracking request from words, as they are typed at the prompt."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from vml_course.errors import InputError
+from vml_course.model.reading import read_quantity
+from vml_course.model.track import Seed
+from vml_course.usecases.track_clip import TrackRequest, VectorRequest
+
+_NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)")
+
+
+def read_request(
+    video: Path, points: Sequence[str], vectors: Sequence[str], words: Mapping[str, str | None], **settled: Any
+) -> TrackRequest:
+    """Return the request that the words say.
+
+    Parameters
+    ----------
+    points : sequence of str
+        `NAME=X,Y` each.
+    vectors : sequence of str
+        `NAME=TAIL:HEAD` each.
+    words : mapping
+        `fps`, `scale` (`X1,Y1,X2,Y2=LENGTH`) and `origin` (`X,Y`), None where nothing was typed.
+    **settled
+        Fields of `TrackRequest` that are no words.
+
+    Raises
+    ------
+    InputError
+        One line that names the option and shows how it is written.
+    """
+    if not points:
+        raise InputError("-p", "at least one point NAME=X,Y", "none")
+    stick, length_m, length_text = read_scale(words.get("scale"))
+    origin = words.get("origin")
+    fps = words.get("fps")
+    return TrackRequest(
+        video=video,
+        seeds=tuple(map(read_point, points)),
+        vectors=tuple(map(read_vector, vectors)),
+        stick_px=stick,
+        length_m=length_m,
+        length_text=length_text,
+        origin_px=_pair("--origin", origin) if origin is not None else None,
+        fps=read_quantity(fps, "rate", "1/s", name="--fps").value if fps is not None else None,
+        **settled,
+    )
+
+
+def read_point(text: str) -> Seed:
+    """Read `NAME=X,Y`.
+
+    >>> read_point("ball=640.5,361")
+    Seed(name='ball', x_px=640.5, y_px=361.0)
+    """
+    name, equals, place = text.rpartition("=")
+    if not equals or not name.strip():
+        raise InputError("-p", "a point as NAME=X,Y, such as ball=640.5,361", repr(text))
+    x, y = _pair(f"-p {name.strip()}", place)
+    return Seed(name.strip(), x, y)
+
+
+def read_vector(text: str) -> VectorRequest:
+    """Read `NAME=TAIL:HEAD`.
+
+    >>> read_vector("shin=knee:foot")
+    VectorRequest(name='shin', tail='knee', head='foot')
+    """
+    name, equals, ends = text.partition("=")
+    tail, colon, head = ends.partition(":")
+    parts = [part.strip() for part in (name, tail, head)]
+    if not (equals and colon and all(parts)):
+        raise InputError("--vector", "a vector as NAME=TAIL:HEAD, such as shin=knee:foot", repr(text))
+    return VectorRequest(*parts)
+
+
+def read_scale(text: str | None) -> tuple[tuple[float, ...] | None, float | None, str]:
+    """Read `X1,Y1,X2,Y2=LENGTH` into the stick's ends, its length in metres, and the length as typed.
+
+    >>> read_scale("10,20,110,20=22 cm")
+    ((10.0, 20.0, 110.0, 20.0), 0.22, '22 cm')
+    """
+    if text is None:
+        return None, None, ""
+    stick, equals, length = text.partition("=")
+    ends = _numbers(stick)
+    if not equals or len(ends) != 4:
+        raise InputError("--scale", 'two points and a length, such as "10,20,110,20=22 cm"', repr(text))
+    return ends, read_quantity(length, "length", name="--scale").value, length.strip()
+
+
+def _pair(name: str, text: str) -> tuple[float, float]:
+    numbers = _numbers(text)
+    if len(numbers) != 2:
+        raise InputError(name, "two numbers X,Y in px, such as 640.5,361", repr(text))
+    return numbers[0], numbers[1]
+
+
+def _numbers(text: str) -> tuple[float, ...]:
+    """Return the numbers between commas; nothing when one of them is none."""
+    parts = [part.strip() for part in text.split(",")]
+    numbers = tuple(float(part) for part in parts if _NUMBER.fullmatch(part))
+    return numbers if len(numbers) == len(parts) and all(map(math.isfinite, numbers)) else ()
