@@ -4,14 +4,19 @@ One kernel call a block: cut and filter the crop, iterate, judge. The picture is
 `picture(W(X)) = offset + gain * block(X)`; a step moves the block by dp = M (J' picture) / gain with M and J
 from `template`, and the warp becomes W o w(dp)^-1.
 
-The reported covariance is that of the linear fit with residuals that are correlated from pixel to pixel,
-as they are after interpolation and in compressed video:
+The reported sigma is that of the linear fit with residuals e that are correlated from pixel to pixel, as they
+are after interpolation and in compressed video. With the influence K = M J of each pixel on u (or v), it is
+the larger of two estimates of the variance of sum(K e):
 
-    V(u) = 1/gain**2 * sum over lags C(lag) * sum over i K(i) K(i + lag)
+    by lags    1/gain**2 * sum over lags up to 2 px of C(lag) * sum over i of K(i) K(i + lag)
+    by tiles   1/gain**2 * G/(G - 3) * sum over G tiles of about 15 px of (sum over the tile of K e)**2
 
-where K = M J is the influence of each pixel on u and C the residual's covariance measured in the block at
-lags up to 5 px each way (Conley, J. Econometrics 92 (1999) 1, equation 4.1, with stationary residuals; for
-white residuals it is the usual s**2 H^-1). The residual holds the noise of both pictures, so V does.
+C is the covariance of e measured in the block. The first is sharp for white noise, interpolated or not
+(Conley, J. Econometrics 92 (1999) 1, eq. 4.1, with stationary residuals; at lag 0 it is the usual s**2 H^-1). The
+second sees what a codec does: it moves its macroblocks by fractions of a pixel, each its own way, which looks
+like white noise pixel by pixel but not in the products K e (Liang, Zeger, Biometrika 73 (1986) 13, eq. 8). e
+holds the noise of both pictures, so sigma does. What moves the whole block alike (a motion vector rounded to
+a quarter of a pixel for all its macroblocks) no single block can see: sigma is then too small.
 """
 
 from __future__ import annotations

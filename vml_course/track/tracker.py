@@ -14,6 +14,7 @@ from typing import Any, ClassVar, Protocol, TypeVar
 from vml_course.errors import UnknownNameError
 from vml_course.model.arrays import FloatArray
 from vml_course.model.frame import Luma
+from vml_course.model.quantity import quantities_of
 from vml_course.model.track import Sighting
 from vml_course.track import trackers
 
@@ -81,7 +82,7 @@ def make_tracker(name: str, **settings: float) -> Tracker[Any]:
         When a setting is out of its range.
     """
     method = tracker_class(name)
-    known = [field for field in method.__dataclass_fields__ if not field.startswith("_")]
+    known = tuple(quantities_of(method))
     for setting in settings:
         if setting not in known:
             raise UnknownNameError("setting", setting, known)
