@@ -20,6 +20,7 @@ JsonOption = Annotated[bool, typer.Option("--json", help="Print the result as JS
 
 def register(app: typer.Typer) -> None:
     """Add this package's commands to `app`."""
+    app.command("demo")(demo)
     app.command("handout")(handout)
     app.command("grade")(grade)
     app.command("check")(check)
@@ -31,6 +32,34 @@ def register(app: typer.Typer) -> None:
 
 def _group() -> None:
     """Look into the gradebook of a course."""
+
+
+def demo(
+    students: Annotated[int, typer.Option(help="Number of sample students, 1 to 60.")] = 3,
+    out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the sample course.")] = Path("demo-course"),
+    workers: Annotated[int, typer.Option(min=1, max=64, help="Processes that render at the same time.")] = 2,
+    as_json: JsonOption = False,
+) -> None:
+    """Run the whole course once: simulate, render, hand out, measure, hand in, grade.
+
+    Example: vml demo --students 3 --out demo-course
+    """
+    from grader.demo import run_demo
+
+    with _stages() as say:
+        result = run_demo(out, students, workers, say)
+    if as_json:
+        graded = [{**asdict(g), "file": str(g.file), "feedback": str(g.feedback)} for g in result.graded]
+        _print_json({"course": str(result.course), "stories": dict(result.stories), "graded": graded})
+        return
+    typer.echo(f"A sample course of {students} is in {result.course}. What the students did, and what the grader says:")
+    for item in result.graded:
+        typer.echo(f"  {item.points:4g} / {item.out_of:g}  {result.stories[item.pid]}")
+    typer.echo("Open these in a browser:")
+    typer.echo(f"  class page      {result.class_page}")
+    for item in result.graded:
+        typer.echo(f"  feedback page   {item.feedback}")
+    typer.echo(f"Videos and tracks: {result.course / 'students'}; handouts: {result.course / 'handouts'}")
 
 
 def handout(
@@ -163,3 +192,15 @@ def _bar(title: str) -> Iterator[Callable[[int, int], None]]:
     with Progress(console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task(title, total=None)
         yield lambda done, total: bar.update(task, completed=done, total=total)
+
+
+@contextmanager
+def _stages() -> Iterator[Callable[[str, float], None]]:
+    """Give a callback that draws one bar over several stages, each named."""
+    from rich.console import Console
+    from rich.progress import Progress
+
+    with Progress(console=Console(stderr=True)) as bar:
+        task = bar.add_task("", total=1.0)
+        yield lambda stage, share: bar.update(task, description=stage, completed=share)
+        bar.update(task, description="done", completed=1.0)
