@@ -1,0 +1,178 @@
+"""A small course to grade: one assignment, one variant, its key, workbooks that students fill."""
+
+from __future__ import annotations
+
+import math
+import sys
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from types import ModuleType
+
+import numpy as np
+import pytest
+
+from assignments.load import load_assignment
+from assignments.mistakes import ImpactNumbers, numbers_of_impact
+from assignments.model import AnswerKey, Assignment, Variant
+from assignments.workbook import fill_workbook, write_workbook
+from grader.grade import grade
+from grader.model import Answer, Grade, Kind, Submission
+from grader.read import ReadRequest, find_submission, read_workbook
+
+FPS, SCALE = 480.0, 500.0
+POINTS = ("foot", "knee", "ball")
+
+
+def impact(e: float = 0.7, inertia: float = 0.9, m: float = 0.35, length: float = 0.5, omega: float = 20.0):
+    given = {"e": e, "I": inertia, "m": m, "L": length, "omega1": omega, "D": 0.22}
+    return numbers_of_impact(given, px_per_m=SCALE)
+
+
+def true_values(n: ImpactNumbers) -> dict[str, float]:
+    return {
+        "px_per_m": SCALE,
+        "fps": FPS,
+        "omega1": n.omega1,
+        "omega2": n.omega2,
+        "v_f1": n.v1,
+        "v_f2": n.v2,
+        "v_b1": n.u1,
+        "v_b2": n.u2,
+        "e": n.e,
+        "I": n.I,
+    }
+
+
+def trajectory_m(n: ImpactNumbers, frames: int = 60, at_s: float = 0.06) -> np.ndarray:
+    """Positions, shape (frames, 3, 2): a leg about a fixed knee and a ball on a straight line."""
+    t = np.arange(frames) / FPS - at_s
+    angle = -math.pi / 2 + np.where(t < 0, n.omega1 * t, n.omega2 * t)
+    foot = np.stack([0.5 + n.L * np.cos(angle), 0.3 + n.L * np.sin(angle)], axis=1)
+    ball = np.stack([1.0 + np.where(t < 0, 0.0, n.u2 * t), np.full_like(t, -0.3)], axis=1)
+    return np.stack([foot, np.tile([0.5, 0.3], (frames, 1)), ball], axis=1)
+
+
+def key_of(n: ImpactNumbers, **changes) -> AnswerKey:
+    xy_m = trajectory_m(n)
+    facts = {
+        "assignment_id": "soccer-kick",
+        "student": "pupil001",
+        "code": "CODE1",
+        "values": true_values(n),
+        "expected_sd": {},
+        "measured": {},
+        "given": {"m": n.m, "L": n.L, "D": n.D},
+        "truth": {"px_per_m": SCALE, "fps": FPS, "t_impact_s": 0.06, "R": n.D / 2},
+        "video_sha256": "0" * 64,
+        "versions": {},
+        "points": POINTS,
+        "frame": np.arange(len(xy_m)),
+        "time_s": np.arange(len(xy_m)) / FPS,
+        "xy_px": xy_m * np.array([SCALE, -SCALE]) + np.array([100.0, 400.0]),
+    }
+    return AnswerKey(**{**facts, **changes})
+
+
+def table_of(xy_m: np.ndarray) -> dict[str, np.ndarray]:
+    columns = {"frame": np.arange(len(xy_m)), "t_s": np.arange(len(xy_m)) / FPS}
+    for p, point in enumerate(POINTS):
+        columns |= {f"{point}_x_m": xy_m[:, p, 0], f"{point}_y_m": xy_m[:, p, 1]}
+    return columns
+
+
+def typed(value: float | str, digits: int = 4) -> str:
+    return value if isinstance(value, str) else f"{value:.{digits}g}"
+
+
+def submission_of(
+    assignment: Assignment, values: Mapping[str, float | str], units: Mapping[str, str] | None = None, tracking=None
+) -> Submission:
+    """A submission made without a file: numbers become number cells, texts text cells."""
+    answers = {}
+    for question in assignment.questions:
+        value = values.get(question.id, "")
+        unit = (units or {}).get(question.id, question.unit)
+        if value == "":
+            answers[question.id] = Answer(unit_text=unit)
+        elif isinstance(value, str):
+            answers[question.id] = Answer(Kind.TEXT, None, value, unit, "Answers!C6", "name")
+        else:
+            answers[question.id] = Answer(Kind.NUMBER, float(value), f"{value:.15g}", unit, "Answers!C6", "name")
+    return Submission("w.xlsx", assignment.id, "CODE1", answers, tracking or {})
+
+
+def rounded(values: Mapping[str, float], digits: int = 4) -> dict[str, float]:
+    return {name: float(f"{value:.{digits}g}") for name, value in values.items()}
+
+
+@dataclass(frozen=True)
+class Desk:
+    """Everything for grading one student."""
+
+    assignment: Assignment
+    numbers: ImpactNumbers
+    key: AnswerKey
+    folder: Path
+    empty: bytes = b""
+    good: bytes = b""
+
+    @property
+    def truth(self) -> dict[str, float]:
+        return rounded(true_values(self.numbers))
+
+    @property
+    def units(self) -> dict[str, str]:
+        return {question.id: question.unit for question in self.assignment.questions if question.unit}
+
+    def grade(self, changes: Mapping[str, float | str] | None = None, units=None, tracking=None) -> Grade:
+        submission = submission_of(self.assignment, {**self.truth, **(changes or {})}, units, tracking)
+        return grade(submission, self.key, self.assignment)
+
+    def workbook(self, changes: Mapping[str, float | str] | None = None, units=None, tracking=None) -> Path:
+        empty, filled = self.folder / "empty.xlsx", self.folder / "filled.xlsx"
+        if self.good and not changes and not units and tracking is None:
+            filled.write_bytes(self.good)
+            return filled
+        empty.write_bytes(self.empty)
+        columns = table_of(trajectory_m(self.numbers)) if tracking is None else tracking
+        fill_workbook(empty, filled, {**self.truth, **(changes or {})}, {**self.units, **(units or {})}, columns)
+        return filled
+
+    def read(self, data: bytes, name: str = "w.xlsx") -> Submission:
+        return find_submission(read_workbook(ReadRequest(name, data)), self.assignment.questions)
+
+
+@pytest.fixture(scope="session")
+def assignment() -> Assignment:
+    return load_assignment("soccer-kick")
+
+
+def variant_of(signature: str = "signed", code: str = "CODE1", student: str = "pupil001") -> Variant:
+    return Variant("soccer-kick", student, code, {}, {}, {}, 1, 0, "1", signature=signature)
+
+
+@pytest.fixture
+def desk(assignment: Assignment, tmp_path: Path, empty_bytes: bytes, good_bytes: bytes) -> Desk:
+    numbers = impact()
+    return Desk(assignment, numbers, key_of(numbers), tmp_path, empty_bytes, good_bytes)
+
+
+@pytest.fixture(scope="session")
+def empty_bytes(assignment: Assignment, tmp_path_factory: pytest.TempPathFactory) -> bytes:
+    path = tmp_path_factory.mktemp("empty") / "w.xlsx"
+    write_workbook(path, assignment, variant_of(), {given.id: 1.0 for given in assignment.givens})
+    return path.read_bytes()
+
+
+@pytest.fixture(scope="session")
+def good_bytes(assignment: Assignment, empty_bytes: bytes, tmp_path_factory: pytest.TempPathFactory) -> bytes:
+    numbers = impact()
+    desk = Desk(assignment, numbers, key_of(numbers), tmp_path_factory.mktemp("good"), empty_bytes)
+    return desk.workbook().read_bytes()
+
+
+@pytest.fixture(scope="session")
+def kit() -> ModuleType:
+    """The makers of this file, for tests that need many."""
+    return sys.modules[__name__]

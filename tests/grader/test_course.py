@@ -1,0 +1,393 @@
+"""A course from key to feedback: gradebook, batch grading, pages, commands."""
+
+from __future__ import annotations
+
+import html.parser
+import json
+import re
+import sqlite3
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from assignments.course import Course, new_course
+from assignments.usecases import HandedOut
+from assignments.variants import signature_of
+from assignments.workbook import fill_workbook, write_workbook
+from grader import usecases
+from grader.errors import NoKeyError, RosterError, UnknownVariantError
+from grader.feedback import Report, class_page, feedback_page, verdict
+from grader.grade import grade
+from grader.gradebook import Gradebook, Row, Student
+from grader.model import Finding, Outcome
+from grader.roster import read_roster
+from grader.usecases import check_workbook, grade_files, hand_out_to
+from vml_course.cli import run
+from vml_course.errors import FileMissingError, InputError
+
+
+@dataclass
+class Class:
+    """A course with three students who have variants."""
+
+    course: Course
+    kit: object
+    assignment: object
+    students: tuple[Student, ...]
+
+    def variant(self, i: int):
+        code = f"CODE{i}"
+        signature = signature_of(self.course.secret, "soccer-kick", code)
+        return self.kit.variant_of(signature, code, self.students[i].pid)
+
+    def numbers(self, i: int):
+        return self.kit.impact(e=0.6 + 0.1 * i)
+
+    def key(self, i: int):
+        return self.kit.key_of(self.numbers(i), code=f"CODE{i}", student=self.students[i].pid)
+
+    def workbook(self, i: int, name: str = "", **changes) -> Path:
+        folder = self.course.folder / "returned"
+        folder.mkdir(exist_ok=True)
+        empty, filled = folder / ".empty.xlsx", folder / (name or f"from {i}.xlsx")
+        write_workbook(empty, self.assignment, self.variant(i), {g.id: 1.0 for g in self.assignment.givens})
+        numbers = self.numbers(i)
+        answers = {**self.kit.rounded(self.kit.true_values(numbers)), **changes}
+        units = {q.id: q.unit for q in self.assignment.questions if q.unit}
+        fill_workbook(empty, filled, answers, units, self.kit.table_of(self.kit.trajectory_m(numbers)))
+        return filled
+
+
+@pytest.fixture
+def room(tmp_path, kit, assignment) -> Class:
+    course = new_course(tmp_path / "course", "Dynamics")
+    with Gradebook.open(course) as book:
+        made = Class(course, kit, assignment, book.students_from_roster(course.roster))
+        for i in range(3):
+            book.keep_key(made.variant(i), made.key(i))
+    return made
+
+
+# ---------------------------------------------------------------- gradebook
+
+
+def test_students_get_random_pseudonyms_once(room):
+    with Gradebook.open(room.course) as book:
+        again = book.students_from_roster(room.course.roster)
+    assert again == room.students
+    assert [student.name for student in again] == ["Ana Example", "Ben Example", "Chi Example"]
+    assert len({student.pid for student in again}) == 3
+    assert all(re.fullmatch("[2-9a-z]{8}", student.pid) for student in again)
+
+
+def test_names_stand_in_one_table_only(room):
+    grade_files(room.course, [room.workbook(0)])
+    with sqlite3.connect(room.course.folder / "gradebook.db") as connection:
+        for line in connection.iterdump():
+            if "Ana" in line:
+                assert line.startswith('INSERT INTO "student_identity"')
+    connection.close()
+
+
+def test_a_key_comes_back_as_it_was_kept(room):
+    with Gradebook.open(room.course) as book:
+        for key in (book.key_for_code("CODE1"), book.key_of("soccer-kick", room.students[1].pid)):
+            assert key.values == room.key(1).values
+            np.testing.assert_array_equal(key.xy_px, room.key(1).xy_px)
+        book.keep_key(room.variant(1), room.key(1))
+        assert book.has_key("soccer-kick", room.students[1].pid)
+        assert not book.has_key("soccer-kick", "nobody")
+
+
+def test_unknown_codes_and_students_are_told(room):
+    with Gradebook.open(room.course) as book:
+        with pytest.raises(UnknownVariantError, match="a variant code of this course"):
+            book.key_for_code("OTHER")
+        with pytest.raises(NoKeyError, match="Hand it out first"):
+            book.key_of("soccer-kick", "nobody")
+
+
+def test_runs_are_added_and_the_newest_counts(room):
+    first, second = room.workbook(0, "a.xlsx", e=0.1), room.workbook(0, "b.xlsx")
+    grade_files(room.course, [first])
+    (again,) = grade_files(room.course, [first])
+    (better,) = grade_files(room.course, [second])
+    assert (again.attempt, better.attempt) == (1, 2)
+    with Gradebook.open(room.course) as book:
+        (row,) = book.rows()
+        assert (row.points, row.attempt, row.student.name) == (20.0, 2, "Ana Example")
+        assert book.rows("another") == ()
+        assert book.is_whole()
+    with sqlite3.connect(room.course.folder / "gradebook.db") as connection:
+        assert connection.execute("select count(*) from grade_run").fetchone() == (3,)
+        assert connection.execute("select count(*) from submission").fetchone() == (2,)
+    connection.close()
+
+
+def test_a_changed_event_shows(room):
+    with sqlite3.connect(room.course.folder / "gradebook.db") as connection:
+        connection.execute("update event set data_json = '{}' where id = 4")
+    connection.close()
+    with Gradebook.open(room.course) as book:
+        assert not book.is_whole()
+
+
+def test_two_graders_at_once_lose_nothing(room):
+    files = [room.workbook(i) for i in range(3)]
+    with ThreadPoolExecutor(4) as pool:
+        batches = list(pool.map(lambda _: grade_files(room.course, files), range(4)))
+    assert all(item.status == "ok" for batch in batches for item in batch)
+    with Gradebook.open(room.course) as book:
+        assert [row.attempt for row in book.rows()] == [1, 1, 1]
+        assert book.is_whole()
+
+
+# ---------------------------------------------------------------- roster
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "name,email\nAna,a@x\nBen,b@x\n",
+        "\ufeffEmail;Name\na@x;Ana\nb@x;Ben\n",
+        "Name\tEmail\tid\nAna\ta@x\t1\n\nBen\tb@x\t2\n",
+    ],
+)
+def test_rosters_of_many_shapes_are_read(tmp_path, text):
+    (tmp_path / "r.csv").write_text(text, encoding="utf-8")
+    assert [(s.name, s.email) for s in read_roster(tmp_path / "r.csv")] == [("Ana", "a@x"), ("Ben", "b@x")]
+
+
+def test_a_roster_in_an_old_encoding_is_read(tmp_path):
+    (tmp_path / "r.csv").write_bytes("name,email\nJosé,j@x\n".encode("cp1252"))
+    assert read_roster(tmp_path / "r.csv")[0].name == "José"
+
+
+@pytest.mark.parametrize(
+    ("text", "words"), [("", "empty"), ("a,b\n1,2\n", "name,email"), ("name,email\nA,x@y\nB,X@y\n", "twice")]
+)
+def test_a_roster_that_is_none_is_told(tmp_path, text, words):
+    (tmp_path / "r.csv").write_text(text)
+    with pytest.raises(RosterError, match=words):
+        read_roster(tmp_path / "r.csv")
+
+
+def test_a_missing_roster_is_told(tmp_path):
+    with pytest.raises(FileMissingError, match="name,email"):
+        read_roster(tmp_path / "r.csv")
+
+
+# ---------------------------------------------------------------- grading a batch
+
+
+def test_a_batch_is_graded_recorded_and_explained(room):
+    room.workbook(0)
+    room.workbook(1, e=float(f"{1 / room.numbers(1).e:.4g}"))
+    (room.course.folder / "returned" / "notes.xlsx").write_bytes(b"%PDF-1.4")
+    told = []
+    graded = grade_files(room.course, [room.course.folder / "returned"], progress=lambda *done: told.append(done))
+    assert [(item.file.name, item.status, item.points) for item in graded] == [
+        ("from 0.xlsx", "ok", 20.0),
+        ("from 1.xlsx", "ok", 14.0),
+        ("notes.xlsx", "unreadable", 0.0),
+    ]
+    assert told == [(1, 3), (2, 3), (3, 3)]
+    assert "PDF" in graded[2].message
+    page = graded[1].feedback.read_text(encoding="utf-8")
+    assert "looks turned over" in page
+    assert "Ben" not in page
+    overview = (room.course.folder / "feedback" / "soccer-kick" / "class.html").read_text(encoding="utf-8")
+    assert "Ben Example" in overview
+    assert "PDF" in overview
+
+
+def test_received_bytes_are_kept_as_they_came(room):
+    file = room.workbook(0)
+    grade_files(room.course, [file, file])
+    kept = [path for path in (room.course.folder / "inbox").rglob("*") if path.is_file()]
+    assert [path.read_bytes() for path in kept] == [file.read_bytes()]
+
+
+@pytest.mark.parametrize("name", ["missing.xlsx", "."])
+def test_what_cannot_be_read_is_a_status(room, name):
+    if name == ".":
+        empty = room.course.folder / "nothing"
+        empty.mkdir()
+        assert grade_files(room.course, [empty]) == []
+    else:
+        (item,) = grade_files(room.course, [room.course.folder / name])
+        assert (item.status, item.needs_attention) == ("unreadable", True)
+
+
+def test_another_courses_workbook_is_not_graded(room, tmp_path):
+    other = Class(new_course(tmp_path / "other"), room.kit, room.assignment, room.students)
+    (item,) = grade_files(room.course, [other.workbook(0)])
+    assert item.status == "unreadable"
+    assert "a variant code of this course" in item.message
+
+
+def test_a_hidden_truth_stays_hidden(room):
+    (item,) = grade_files(room.course, [room.workbook(0, v_b2=1.0, px_per_m=7.0)], show_truth=False)
+    page = item.feedback.read_text(encoding="utf-8")
+    assert "True value" not in page
+    assert "<svg" not in page
+    assert f"{room.numbers(0).u2:.4g}" not in page
+
+
+# ---------------------------------------------------------------- pages
+
+
+class Tags(html.parser.HTMLParser):
+    def __init__(self, text: str):
+        super().__init__()
+        self.seen: list[tuple[str, dict]] = []
+        self.open: list[str] = []
+        self.feed(text)
+
+    def handle_starttag(self, tag, attrs):
+        self.seen.append((tag, dict(attrs)))
+        if tag not in {"meta", "br", "col", "line", "rect", "circle", "polyline"}:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag, attrs):
+        self.seen.append((tag, dict(attrs)))
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+    def names(self):
+        return [tag for tag, _ in self.seen]
+
+
+def report(desk, kit, **changes) -> Report:
+    values = {**desk.truth, **changes}
+    submission = kit.submission_of(desk.assignment, values, None, kit.table_of(kit.trajectory_m(desk.numbers)))
+    return Report(desk.assignment, submission, desk.key, grade(submission, desk.key, desk.assignment))
+
+
+def test_a_page_is_self_contained_and_well_formed(desk, kit):
+    page = feedback_page(report(desk, kit, e=0.2, v_b1="1,234"))
+    tags = Tags(page)
+    assert tags.open == []
+    assert "script" not in tags.names()
+    assert "link" not in tags.names()
+    assert "http" not in re.sub(r"http-equiv", "", page)
+    assert tags.names().count("h1") == 1
+    assert ("html", {"lang": "en"}) in tags.seen
+    assert any("default-src 'none'" in str(a) for tag, a in tags.seen if tag == "meta")
+    for tag, attributes in tags.seen:
+        if tag == "svg":
+            assert attributes["role"] == "img"
+    assert tags.names().count("svg") == tags.names().count("title") - 1 == 2
+
+
+def test_what_a_student_typed_cannot_leave_its_place(desk, kit):
+    page = feedback_page(report(desk, kit, v_b1='<script>alert("1")</script> 5'))
+    assert "<script" not in page
+    assert "&lt;script&gt;" in page
+
+
+def test_names_on_the_class_page_are_escaped(assignment):
+    row = Row(Student("abc", "<b>Bobby</b>"), "soccer-kick", 1, 5.0, 20.0, "review", "", {}, ("E1",), ("Look.",))
+    page = class_page(assignment, [row], [("<i>.xls", "an old workbook")])
+    assert "<b>Bobby" not in page
+    assert "<i>.xls" not in page
+    assert Tags(page).open == []
+
+
+def test_a_class_without_grades_has_a_page(assignment):
+    assert "Nothing has been graded yet" in class_page(assignment, [])
+
+
+def test_a_table_with_one_row_draws_no_curve(desk, kit):
+    submission = kit.submission_of(desk.assignment, desk.truth, None, {})
+    page = feedback_page(Report(desk.assignment, submission, desk.key, grade(submission, desk.key, desk.assignment)))
+    assert "<svg" not in page
+    assert "Paste your measured positions" in page
+
+
+def test_an_error_carried_on_is_shown_as_such():
+    finding = Finding("e", "value", Outcome.RIGHT, 1, 1, "", carried=True)
+    assert verdict([finding]).word == "carried on"
+
+
+# ---------------------------------------------------------------- check and hand out
+
+
+def test_a_check_sees_form_only(room):
+    result = check_workbook(room.workbook(0, e=99.0))
+    assert result.is_complete
+    assert result.tracking_rows == 60
+    result = check_workbook(room.workbook(0, "b.xlsx", v_b2="", I="1,234", omega1="17 s"))
+    statuses = {answer.question_id: answer.status for answer in result.answers}
+    assert {q: s for q, s in statuses.items() if s != "read"} == {"v_b2": "empty", "I": "unclear", "omega1": "unclear"}
+    assert not result.is_complete
+
+
+def test_hand_out_goes_to_the_roster_or_to_one(room, monkeypatch):
+    asked = []
+
+    def fake(course, assignment, students, keep, *, is_kept, workers, progress):
+        asked.append((list(students), is_kept(room.students[0].pid)))
+        return [HandedOut(s, course.folder / s, "made") for s in students]
+
+    monkeypatch.setattr(usecases, "hand_out", fake)
+    handed, people = hand_out_to(room.course, "soccer-kick", [])
+    assert [item.student for item in handed] == [student.pid for student in room.students] == list(people)
+    hand_out_to(room.course, "soccer-kick", [room.students[2].pid])
+    assert asked[1] == ([room.students[2].pid], True)
+    with pytest.raises(InputError, match="a pseudonym of this course"):
+        hand_out_to(room.course, "soccer-kick", ["nobody"])
+    assert run(["handout", "soccer-kick", "--course", str(room.course.folder)]) == 0
+
+
+# ---------------------------------------------------------------- commands
+
+
+@pytest.mark.parametrize("command", [["grade"], ["handout"], ["check"], ["gradebook", "show"]])
+def test_every_command_has_help_with_an_example(capsys, command):
+    assert run([*command, "--help"]) == 0
+    assert f"vml {' '.join(command)}" in " ".join(capsys.readouterr().out.split())
+
+
+def test_grade_prints_json_and_ends_with_one_when_someone_should_look(room, capsys):
+    good, bad = room.workbook(0), room.course.folder / "x.xlsx"
+    bad.write_bytes(b"")
+    course = ["--course", str(room.course.folder)]
+    assert run(["grade", str(good), *course, "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)[0]["points"] == 20.0
+    assert run(["grade", str(good), str(bad), *course]) == 1
+    shown = capsys.readouterr().out
+    assert "empty file" in shown
+    assert "Class page:" in shown
+
+
+def test_the_gradebook_is_shown(room, capsys):
+    grade_files(room.course, [room.workbook(0)])
+    assert run(["gradebook", "show", "--course", str(room.course.folder)]) == 0
+    shown = capsys.readouterr().out
+    assert "20 / 20" in shown
+    assert shown.count("nothing graded yet") == 2
+    assert run(["gradebook", "show", "--course", str(room.course.folder), "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)[0]["student"]["name"] == "Ana Example"
+
+
+def test_check_says_whether_a_workbook_is_complete(room, capsys):
+    assert run(["check", str(room.workbook(0))]) == 0
+    assert "Complete" in capsys.readouterr().out
+    assert run(["check", str(room.workbook(0, e="")), "--json"]) == 1
+    assert json.loads(capsys.readouterr().out)["is_complete"] is False
+
+
+@pytest.mark.parametrize(
+    "arguments", [["check", "no.xlsx"], ["grade", "x", "--course", "no"], ["gradebook", "show", "--course", "no"]]
+)
+def test_mistakes_are_one_line(arguments, capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert run(arguments) == 2
+    captured = capsys.readouterr()
+    assert captured.out == ""
+    assert captured.err.count("\n") == 1
