@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Iterable
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
+
+from vml_course.commands._progress import progress, stages
 
 if TYPE_CHECKING:
     from grader.usecases import Checked, Graded
@@ -46,7 +47,7 @@ def demo(
     """
     from grader.demo import run_demo
 
-    with _stages() as say:
+    with stages() as say:
         result = run_demo(out, students, workers, say)
     if as_json:
         graded = [{**asdict(g), "file": str(g.file), "feedback": str(g.feedback)} for g in result.graded]
@@ -78,10 +79,8 @@ def handout(
     from assignments.course import open_course
     from grader.usecases import hand_out_to
 
-    with _bar("handing out") as progress:
-        handed, students = hand_out_to(
-            open_course(course), assignment, student or (), workers=workers, progress=progress
-        )
+    with progress("handing out") as show:
+        handed, students = hand_out_to(open_course(course), assignment, student or (), workers=workers, progress=show)
     if as_json:
         _print_json([{**asdict(item), "folder": str(item.folder)} for item in handed])
     else:
@@ -109,8 +108,8 @@ def grade(
     from grader.usecases import grade_files
 
     opened = open_course(course)
-    with _bar("grading") as progress:
-        graded = grade_files(opened, files, show_truth=show_truth, progress=progress)
+    with progress("grading") as show:
+        graded = grade_files(opened, files, show_truth=show_truth, progress=show)
     if as_json:
         _print_json([{**asdict(g), "file": str(g.file), "feedback": g.feedback and str(g.feedback)} for g in graded])
     else:
@@ -181,26 +180,3 @@ def show(course: CourseOption, as_json: JsonOption = False) -> None:
 
 def _print_json(result: Any) -> None:
     typer.echo(json.dumps(result, ensure_ascii=False, indent=1))
-
-
-@contextmanager
-def _bar(title: str) -> Iterator[Callable[[int, int], None]]:
-    """Give a callback that draws a bar on standard error."""
-    from rich.console import Console
-    from rich.progress import Progress
-
-    with Progress(console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task(title, total=None)
-        yield lambda done, total: bar.update(task, completed=done, total=total)
-
-
-@contextmanager
-def _stages() -> Iterator[Callable[[str, float], None]]:
-    """Give a callback that draws one bar over several stages, each named."""
-    from rich.console import Console
-    from rich.progress import Progress
-
-    with Progress(console=Console(stderr=True)) as bar:
-        task = bar.add_task("", total=1.0)
-        yield lambda stage, share: bar.update(task, description=stage, completed=share)
-        bar.update(task, description="done", completed=1.0)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import sys
 from importlib.metadata import entry_points
 
@@ -30,6 +31,9 @@ def _group() -> None:
 
 def main(arguments: list[str] | None = None) -> None:
     """Run `vml` and end the process: 0 done, 1 some items need attention, 2 wrong input, 130 stopped."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):  # a Windows pipe may know no sigma; better a ? than a traceback
+            stream.reconfigure(errors="replace")
     sys.exit(run(arguments))
 
 

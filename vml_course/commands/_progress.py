@@ -1,4 +1,4 @@
-"""A progress bar on standard error, shared by the commands of this folder."""
+"""Progress bars on standard error, shared by every command that takes its time."""
 
 from __future__ import annotations
 
@@ -8,20 +8,29 @@ from contextlib import contextmanager
 
 @contextmanager
 def progress(title: str) -> Iterator[Callable[[int, int], None]]:
-    """Give a callback `(done, total)` that draws a bar, from the first picture on."""
+    """Give a callback `(done, total)` that draws a bar; nothing is drawn before something is done."""
+    with stages() as show:
+        yield lambda done, total: show(title, done / total if total else 1.0)
+
+
+@contextmanager
+def stages() -> Iterator[Callable[[str, float], None]]:
+    """Give a callback `(what is being done, share of the whole from 0 to 1)` that draws one bar."""
     from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+    from rich.progress import BarColumn, Progress, TaskID, TaskProgressColumn, TextColumn, TimeRemainingColumn
 
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    columns = (TextColumn("{task.description}"), BarColumn(), TaskProgressColumn(), TimeRemainingColumn())
     bar = Progress(*columns, console=Console(stderr=True))
-    task = bar.add_task(title)
+    started: list[TaskID] = []
 
-    def show(done: int, total: int) -> None:
-        if done == 1:
+    def show(stage: str, share: float) -> None:
+        if not started:
             bar.start()
-        bar.update(task, completed=done, total=total)
+            started.append(bar.add_task(stage, total=1.0))
+        bar.update(started[0], description=stage, completed=share)
 
     try:
         yield show
     finally:
-        bar.stop()
+        if started:  # a bar that never began must not leave an empty line before an error
+            bar.stop()

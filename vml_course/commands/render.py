@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -42,7 +40,7 @@ def register(app: typer.Typer) -> None:
 
 
 def render(
-    scene: Annotated[str, typer.Argument(help="Name of the scene.")],
+    scene: Annotated[str, typer.Argument(metavar="SCENE", help="Name of the scene.")],
     out: Annotated[Path | None, typer.Option("-o", "--out", help="Folder to write into.")] = None,
     values: Annotated[
         list[str] | None,
@@ -54,6 +52,7 @@ def render(
     as_json: Annotated[bool, typer.Option("--json", help="Print the result as JSON.")] = False,
 ) -> None:
     """Simulate a scene and write its video with truth.json and truth.csv beside it."""
+    from vml_course.commands._progress import progress
     from vml_course.errors import InputError
     from vml_course.synth.settings import read_settings
     from vml_course.usecases.make_video import make_video
@@ -65,30 +64,9 @@ def render(
         raise InputError("--out", "a folder to write into", "nothing", "Add -o FOLDER.")
     chosen = [f"format={video_format.value}"] if video_format else []
     settings = read_settings(scene, [*(values or []), *chosen])
-    with _progress(f"render {scene}") as progress:
-        made = make_video(settings.scene, settings.camera, settings.recording, seed, out, progress)
+    with progress(f"render {scene}") as show:
+        made = make_video(settings.scene, settings.camera, settings.recording, seed, out, show)
     _print_made(made, out, as_json)
-
-
-@contextmanager
-def _progress(title: str) -> Iterator[Callable[[int, int], None]]:
-    """Give a callback that draws a bar on standard error, from the first picture on."""
-    from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
-
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    bar = Progress(*columns, console=Console(stderr=True))
-    task = bar.add_task(title)
-
-    def show(done: int, total: int) -> None:
-        if done == 1:
-            bar.start()
-        bar.update(task, completed=done, total=total)
-
-    try:
-        yield show
-    finally:
-        bar.stop()
 
 
 def _print_made(made: MadeVideo, folder: Path, as_json: bool) -> None:
