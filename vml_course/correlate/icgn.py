@@ -100,10 +100,11 @@ def match(
     max_shift_px : float
         The centre may not leave its first guess by more along x or y.
     """
-    report = np.full(6, np.nan)
+    report = np.full(5, np.nan)
     pose = np.array(start, dtype=np.float64)
     outcome = iterate(image, template, pose, np.array([max_iterations, tolerance_px, max_shift_px]), report)
-    return Match(pose, Outcome(outcome), int(report[0]), report[1], report[2], report[3], report[4])
+    iterations, zncc, sigma, gain, residual = report.tolist()
+    return Match(pose, Outcome(outcome), int(iterations), zncc, sigma, gain, residual)
 
 
 @njit(fastmath=True, **KERNEL)
@@ -207,6 +208,29 @@ def gauss_newton_step(template, sums, step):  # type: ignore[no-untyped-def] # n
     return moved
 
 
+@njit(**KERNEL)
+def damp(template, step, last, share, hardly_shrinks):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN201
+    """Take only a share of the step, and half of that share from here on when steps swing to and fro.
+
+    Where the picture's gradients are weaker than the block's (blur, another background in its corners), the
+    block's Hessian overshoots by up to twice the error, and undamped steps swing for ever.
+    """
+    n, m = template.values.shape
+    scale = 0.25 * (n * n + m * m) / 2.0  # of the linear part against the place, at the edge of the block
+    along, size, size_last = 0.0, 0.0, 0.0
+    for k in range(6):
+        weight = scale if k > 1 else 1.0
+        along += weight * step[k] * last[k]
+        size += weight * step[k] * step[k]
+        size_last += weight * last[k] * last[k]
+    if hardly_shrinks and along < -0.5 * np.sqrt(size * size_last):
+        share = max(0.5 * share, 0.25)
+    for k in range(6):
+        step[k] *= share
+        last[k] = step[k]
+    return share
+
+
 @njit(fastmath=True, **KERNEL)
 def residual_covariance(residual, dy, dx):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN201
     """Return the mean product of a residual (n, m) with itself, shifted by (dy, dx)."""
@@ -305,6 +329,7 @@ def iterate(image, template, pose, limits, report):  # type: ignore[no-untyped-d
     start = pose.copy()
     sampled, sums, step, local = np.empty((n, m), np.float32), np.empty(9), np.empty(6), pose.copy()
     crop, x0, y0 = np.empty((0, 0), np.float32), 0, 0
+    last, share = np.zeros(6), 1.0
     outcome, before = 1, 0.0
     report[0] = 0
     while report[0] < limits[0] and outcome == 1:
@@ -324,6 +349,7 @@ def iterate(image, template, pose, limits, report):  # type: ignore[no-untyped-d
         moved = gauss_newton_step(template, sums, step)
         if moved < 0.0:
             return 4
+        share = damp(template, step, last, share, moved > 0.3 * before)
         compose(pose, step, template.rigid)
         report[0] += 1
         if moved < limits[1] or (moved < 0.1 and moved * moved < 0.3 * limits[1] * before):

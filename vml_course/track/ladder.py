@@ -138,9 +138,9 @@ def is_acceptable(found: Match, expected: FloatArray, guess: Guess) -> bool:
     """Whether a match keeps the rules: converged, alike, near, not torn."""
     if found.outcome is not Outcome.CONVERGED or not found.zncc >= guess.least_zncc:
         return False
-    xx, xy, yx, yy = found.pose[2:]
-    is_near = bool(np.abs(found.pose - expected)[:2].max() <= guess.radius_px)
-    return is_near and DETERMINANT[0] <= xx * yy - xy * yx <= DETERMINANT[1]
+    x, y, xx, xy, yx, yy = found.pose.tolist()
+    off = max(abs(x - float(expected[0])), abs(y - float(expected[1])))
+    return bool(off <= guess.radius_px) and bool(DETERMINANT[0] <= xx * yy - xy * yx <= DETERMINANT[1])
 
 
 def _lost(past: Past) -> Past:
