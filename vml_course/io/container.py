@@ -15,6 +15,7 @@ from vml_course.io.files import existing
 
 # Containers we promise to read; play lists and scripts, which open further files, are not among them.
 FORMATS = "mov,mp4,m4a,3gp,3g2,mj2,matroska,webm,avi,mpegts,mpeg,asf,flv,ogg,gif,mxf,dv,nut,mjpeg,h264,hevc"
+UNKNOWN_CODEC = ("a codec that cannot be decoded", "Convert it to H.264.")
 EXPECTED = "a video that can be decoded"
 
 
@@ -36,6 +37,8 @@ def open_video(path: Path) -> Iterator[tuple[InputContainer, VideoStream]]:
             if not container.streams.video:
                 raise VideoError(path.name, EXPECTED, "a file without pictures")
             stream = container.streams.video[0]
+            if stream.codec_context is None:
+                raise VideoError(path.name, EXPECTED, *UNKNOWN_CODEC)
             stream.thread_type = "AUTO"
             yield container, stream
     except av.FFmpegError as error:
@@ -55,7 +58,7 @@ def _explain(path: Path, error: av.FFmpegError) -> tuple[str, str]:
     if is_mp4 and not _has_box(path, b"moov"):
         return "a cut-off file (its index, the moov atom, is missing)", "Copy it again from the camera."
     if isinstance(error, av.DecoderNotFoundError):
-        return "a codec that cannot be decoded", "Convert it to H.264."
+        return UNKNOWN_CODEC
     return "something else or a damaged file", "Is it really a video?"
 
 

@@ -16,6 +16,7 @@ Point = tuple[float, float]
 BLACK: Colour = (0, 0, 0)
 WHITE: Colour = (255, 255, 255)
 BLUE: Colour = (255, 120, 20)
+LIGHT_BLUE: Colour = (255, 190, 120)
 YELLOW: Colour = (60, 225, 250)
 RED: Colour = (70, 70, 255)
 MARKS: tuple[Colour, ...] = (
@@ -69,17 +70,22 @@ class Pen:
         for ax, ay in ((1, 0), (-1, 0), (0, 1), (0, -1)):
             self.line([(x + near * ax, y + near * ay), (x + far * ax, y + far * ay)], colour, 2)
 
-    def text(self, words: str, at: Point, colour: Colour, height: float = 0.6) -> None:
+    def text(self, words: str, at: Point, colour: Colour, height: float = 0.75) -> None:
         """Write words with a dark outline; `at` is their lower left corner."""
-        plain, place = shown(words), (round(at[0]), round(at[1]))
-        scale = height * self.size
-        for stroke, paint in ((self._stroke(4), BLACK), (max(1, round(1.4 * self.size)), colour)):
-            cv2.putText(self.image, plain, place, _FONT, scale, paint, stroke, cv2.LINE_AA)
+        # The outline is the same writing, shifted: in some OpenCV versions a thicker stroke makes wider letters.
+        reach = max(1, round(1.5 * self.size))
+        for dx, dy in ((-1, -1), (0, -1), (1, -1), (-1, 0), (1, 0), (-1, 1), (0, 1), (1, 1)):
+            self._write(words, (at[0] + reach * dx, at[1] + reach * dy), BLACK, height)
+        self._write(words, at, colour, height)
 
-    def text_size(self, words: str, height: float = 0.6) -> tuple[int, int]:
+    def text_size(self, words: str, height: float = 0.75) -> tuple[int, int]:
         """Return width and height of words in px."""
-        (width, tall), _ = cv2.getTextSize(shown(words), _FONT, height * self.size, max(1, round(1.4 * self.size)))
+        (width, tall), _ = cv2.getTextSize(shown(words), _FONT, height * self.size, self._stroke(1.5))
         return int(width), int(tall)
+
+    def _write(self, words: str, at: Point, colour: Colour, height: float) -> None:
+        place = (round(at[0]), round(at[1]))
+        cv2.putText(self.image, shown(words), place, _FONT, height * self.size, colour, self._stroke(1.5), cv2.LINE_AA)
 
     def shade(self, left: int, top: int, width: int, height: int) -> None:
         """Darken a box, to write on."""

@@ -12,7 +12,7 @@ import cv2
 import numpy as np
 
 from vml_course.errors import VideoError
-from vml_course.io.drawing import BLUE, MARKS, RED, WHITE, YELLOW, Image, Pen, Point
+from vml_course.io.drawing import BLUE, LIGHT_BLUE, MARKS, RED, WHITE, YELLOW, Image, Pen, Point
 from vml_course.io.encode import write_video
 from vml_course.io.planes import bgr_of, picture_from_bgr
 from vml_course.io.source import open_source
@@ -136,10 +136,12 @@ def _draw_point(pen: Pen, scenery: Scenery, row: int, number: int, name: str) ->
     if at is None:
         return
     side = float(track.settings.get("block", 0)) * scenery.zoom
+    corners = block_corners(at, side, track.gradient[row, number])
     if side:
-        pen.line(block_corners(at, side, track.gradient[row, number]), colour, 1.5, is_closed=True)
+        pen.line(corners, colour, 1.5, is_closed=True)
     pen.cross(at, colour)
-    pen.text(name, (at[0] + 14 * pen.size, at[1] - 12 * pen.size), colour, 0.65)
+    top = min(y for _, y in corners) - 6 * pen.size
+    pen.text(name, (at[0] + 12 * pen.size, min(top, at[1] - 16 * pen.size)), colour)
 
 
 def block_corners(at: Point, side: float, gradient: FloatArray) -> list[Point]:
@@ -159,29 +161,26 @@ def _draw_vector(pen: Pen, scenery: Scenery, row: int, vector: VectorSeries) -> 
     angle = float(vector.angle_rad[row])
     reach = 70 * pen.size
     along = (tail[0] + reach * np.cos(scenery.turn), tail[1] - reach * np.sin(scenery.turn))
-    pen.arrow(tail, along, YELLOW, 2.5)
     pen.arrow(tail, head, BLUE, 3.5)
+    pen.arrow(tail, along, YELLOW, 2.5)
     sweep = (angle + np.pi) % (2 * np.pi) - np.pi
     pen.arc(tail, 0.6 * reach, scenery.turn, sweep, WHITE)
-    middle = scenery.turn + 0.5 * sweep
-    at = (tail[0] + 0.85 * reach * np.cos(middle), tail[1] - 0.85 * reach * np.sin(middle) + 6 * pen.size)
-    words = f"{vector.name} {np.degrees(angle):.1f} deg"
-    left = at[0] - pen.text_size(words)[0] if np.cos(middle) < 0 else at[0]
-    pen.text(words, (left, at[1]), WHITE)
 
 
 def _draw_clock(pen: Pen, scenery: Scenery, row: int) -> None:
     track = scenery.tracked.track
     lost = [name for number, name in enumerate(track.points) if track.is_lost[row, number]]
     lines = [(f"frame {track.frame[row]}   t = {track.time_s[row]:.4f} s", WHITE), (scenery.speed, WHITE)]
+    angles = [(vector.name, np.degrees(vector.angle_rad[row])) for vector in scenery.tracked.vectors]
+    lines += [(f"{name} {angle:.1f} deg", LIGHT_BLUE) for name, angle in angles if np.isfinite(angle)]
     if lost:
         lines.append((f"lost: {', '.join(lost)}", RED))
     gap = round(10 * pen.size)
     widest = max(pen.text_size(words)[0] for words, _ in [*lines, ("frame 0000   t = 0.0000 s", WHITE)])
-    tall = round(26 * pen.size)
+    tall = round(30 * pen.size)
     pen.shade(gap, gap, widest + 2 * gap, tall * len(lines) + gap)
     for number, (words, colour) in enumerate(lines):
-        pen.text(words, (2 * gap, gap + tall * (number + 1) - round(4 * pen.size)), colour)
+        pen.text(words, (2 * gap, gap + tall * (number + 1) - round(3 * pen.size)), colour)
 
 
 def _draw_scale(pen: Pen, scenery: Scenery) -> None:
@@ -192,7 +191,7 @@ def _draw_scale(pen: Pen, scenery: Scenery) -> None:
     words = f"{length:g} m" if calibration else f"{length:g} px"
     left, right, y = 24 * pen.size, 24 * pen.size + length * px_per_unit, height - 26 * pen.size
     tick = 7 * pen.size
-    pen.shade(round(10 * pen.size), round(y - 38 * pen.size), round(right + 4 * pen.size), round(54 * pen.size))
+    pen.shade(round(10 * pen.size), round(y - 44 * pen.size), round(right + 4 * pen.size), round(60 * pen.size))
     pen.line([(left, y - tick), (left, y), (right, y), (right, y - tick)], WHITE, 2)
     pen.text(words, (0.5 * (left + right) - 0.5 * pen.text_size(words)[0], y - 12 * pen.size), WHITE)
 

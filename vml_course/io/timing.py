@@ -31,17 +31,26 @@ def rate_of(pts: IntArray, time_base: Fraction, declared: Fraction | None) -> tu
         return declared or Fraction(0), False
     span = int(pts[-1] - pts[0])
     mean = Fraction(len(pts) - 1) / (span * time_base) if span else Fraction(0)
-    if declared and strays(pts, 1 / (declared * time_base)) <= ROUNDING_TICKS:
+    if declared and _is_even(pts, float(1 / (declared * time_base)), 1):
         return declared, False
     if not mean:
         return declared or mean, True
     number = np.arange(len(pts), dtype=np.float64)
     slope = float(np.polyfit(number, (pts - pts[0]).astype(np.float64), 1)[0])
-    is_variable = strays(pts, slope) > _tick(pts) * ROUNDING_TICKS
-    return mean.limit_denominator(100_000), is_variable
+    return mean.limit_denominator(100_000), not _is_even(pts, slope, _tick(pts))
 
 
-def strays(pts: IntArray, step: float | Fraction) -> float:
+def _is_even(pts: IntArray, step: float, tick: int) -> bool:
+    """Whether stamps are those of a constant rate, rounded to `tick`: then their steps differ by one tick at most.
+
+    (Where a step has many ticks, two roundings one after the other may make it two.)
+    """
+    steps = np.diff(pts)
+    is_rounding = bool(np.ptp(steps) <= tick) or step >= 10 * tick
+    return is_rounding and strays(pts, step) <= ROUNDING_TICKS * tick
+
+
+def strays(pts: IntArray, step: float) -> float:
     """Return the spread (largest less smallest) of the stamps about a line of that step, in ticks.
 
     >>> strays(np.array([0, 2, 4, 6, 8]), 2)
@@ -49,7 +58,7 @@ def strays(pts: IntArray, step: float | Fraction) -> float:
     >>> strays(np.array([0, 2, 4, 6, 10]), 2)
     2.0
     """
-    offset = (pts - pts[0]).astype(np.float64) - np.arange(len(pts)) * float(step)
+    offset = (pts - pts[0]).astype(np.float64) - np.arange(len(pts)) * step
     return float(np.ptp(offset))
 
 
