@@ -119,9 +119,11 @@ def grade(
 
 
 def _print_graded(graded: Iterable[Graded], folder: Path) -> None:
+    from grader.feedback import points_text
+
     graded = list(graded)
     for item in graded:
-        points = f"{item.points:g} / {item.out_of:g}" if item.status != "unreadable" else "–"
+        points = f"{points_text(item.points)} / {points_text(item.out_of)}" if item.status != "unreadable" else "–"
         typer.echo(f"{item.pid or '–':10}{points:>12}  {item.status:11}{item.message or item.file.name}")
     for assignment_id in dict.fromkeys(item.assignment_id for item in graded if item.assignment_id):
         typer.echo(f"Class page: {folder / 'feedback' / assignment_id / 'class.html'}")
@@ -159,6 +161,7 @@ def show(course: CourseOption, as_json: JsonOption = False) -> None:
     Example: vml gradebook show --course dynamics-2026
     """
     from assignments.course import open_course
+    from grader.feedback import points_text
     from grader.gradebook import Gradebook
 
     with Gradebook.open(open_course(course)) as book:
@@ -168,7 +171,7 @@ def show(course: CourseOption, as_json: JsonOption = False) -> None:
         return
     for row in rows:
         who = f"{row.student.pid}  {row.student.name:24}{row.assignment_id:16}"
-        typer.echo(f"{who}{row.points:g} / {row.out_of:g}  attempt {row.attempt}  {row.status}")
+        typer.echo(f"{who}{points_text(row.points)} / {points_text(row.out_of)}  attempt {row.attempt}  {row.status}")
     graded = {row.student.pid for row in rows}
     for student in students:
         if student.pid not in graded:

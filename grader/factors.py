@@ -19,7 +19,8 @@ SPREAD = 0.04
 MATCH = 0.025
 """A factor has a name when the name's factor is this close."""
 
-_RATES = (24.0, 25.0, 29.97, 30.0, 50.0, 59.94, 60.0, 120.0, 240.0, 480.0, 960.0, 1000.0)
+_PLAYBACK = (24.0, 25.0, 29.97, 30.0, 50.0, 59.94, 60.0)
+_FAR = 1e9  # a number this far off tells of no slip of units
 _DEG, _RPM = 180 / math.pi, 30 / math.pi
 _VAGUE = frozenset({"K7", "K8"})  # "your own scale (rate)" is said only where nothing more definite fits
 
@@ -47,9 +48,9 @@ def _ratios(submission: Submission, key: AnswerKey, asked: Iterable[Question]) -
     for question in asked:
         stated = state(submission.answer(question.id), question)
         truth = truths.get(question.id, 0.0)
-        if isinstance(stated, Stated) and stated.value != 0 and abs(truth) > 0.05 * largest:
+        if isinstance(stated, Stated) and abs(truth) > 0.05 * largest:
             ratios[question.id] = stated.value / truth
-    return ratios
+    return {question_id: ratio for question_id, ratio in ratios.items() if 1 / _FAR < abs(ratio) < _FAR}
 
 
 def _shared(ratios: Mapping[str, float]) -> tuple[float, tuple[str, ...]] | None:
@@ -100,7 +101,7 @@ def _rate_names(
     submission: Submission, key: AnswerKey, questions: Mapping[str, Question]
 ) -> Iterable[tuple[str, float]]:
     fps = key.truth.get("fps", math.nan)
-    yield from (("K2", rate / fps) for rate in _RATES if abs(rate / fps - 1) > SPREAD)
+    yield from (("K2", rate / fps) for rate in _PLAYBACK if abs(rate / fps - 1) > SPREAD)
     yield "K2b", 1 / fps
     own_rate = _own(submission, questions, "fps")
     if own_rate:

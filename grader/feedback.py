@@ -5,6 +5,7 @@ Every text that came from a workbook is hostile until the template has escaped i
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -86,8 +87,8 @@ def feedback_page(report: Report) -> str:
         assignment=report.assignment,
         pid=report.key.student,
         attempt=report.attempt,
-        points=number(grade.points),
-        out_of=number(grade.out_of),
+        points=points_text(grade.points),
+        out_of=points_text(grade.out_of),
         share=grade.points / grade.out_of if grade.out_of else 0.0,
         needs_person=grade.status == "review",
         hints=[diagnosis.hint for diagnosis in grade.diagnosis],
@@ -155,7 +156,16 @@ def verdict(findings: Sequence[Finding]) -> Verdict:
 
 
 def _points(findings: Sequence[Finding]) -> str:
-    return f"{number(sum(f.points for f in findings))} / {number(sum(f.out_of for f in findings))}"
+    return f"{points_text(sum(f.points for f in findings))} / {points_text(sum(f.out_of for f in findings))}"
+
+
+def points_text(points: float) -> str:
+    """Return points with two decimals at most, halves rounded up.
+
+    >>> points_text(17.525), points_text(20.0)
+    ('17.53', '20')
+    """
+    return f"{math.floor(points * 100 + 0.5 + 1e-9) / 100:g}"
 
 
 def _charts(report: Report, fit: TrajectoryFit) -> tuple[CurveChart, ...]:
@@ -203,7 +213,7 @@ def class_page(assignment: Assignment, rows: Sequence[Row], unreadable: Sequence
         facility=[(symbol(q.symbol), q.label, _facility(rows, q.id)) for q in assignment.questions],
         mistakes=[(code, about(code), count) for code, count in mistakes.most_common()],
         unreadable=unreadable,
-        number=number,
+        points_text=points_text,
     )
 
 

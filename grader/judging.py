@@ -24,6 +24,8 @@ _UNIT_SHARE, _FORMULA_SHARE = 0.1, 0.5
 
 # Which question's error a common factor comes from: it costs points there, once.
 _SOURCES = {"K1": "px_per_m", "K1b": "px_per_m", "K5": "px_per_m", "K5b": "px_per_m", "K7": "px_per_m"}
+# Pixels are no slip but a step left out: following it for full points would make calibration worthless.
+_SKIPPED = frozenset({"K1", "K1b", "K1c"})
 _RATE_SOURCES = {"K2": "fps", "K8": "fps"}
 
 
@@ -99,7 +101,8 @@ def _measured_value(asked: Asked, stated: Stated, points: float) -> Finding:
         return finding(Outcome.RIGHT, 1.0, f"Right: {tolerance.words} of the true value.")
     factor = _factor_of(asked, stated.value, tolerance.half_width)
     if factor is not None:
-        return finding(*_factored(asked, factor), carried=_is_paid(asked, factor))
+        is_carried = _is_paid(asked, factor) and factor.codes[0] not in _SKIPPED
+        return finding(*_factored(asked, factor), carried=is_carried)
     if distance <= PARTIAL_REACH * tolerance.half_width:
         return finding(Outcome.PARTIAL, 0.5, f"Close, but not {tolerance.words}, which earns full points.")
     if abs(stated.value + truth) <= tolerance.half_width:
@@ -118,6 +121,13 @@ def _factor_of(asked: Asked, value: float, half_width: float) -> Factor | None:
 def _factored(asked: Asked, factor: Factor) -> tuple[Outcome, float, str, str]:
     """Judge a number that is right but for a factor that all of its kind share."""
     code = factor.codes[0] if len(factor.codes) == 1 else ""
+    if code in _SKIPPED:
+        return (
+            Outcome.PARTIAL,
+            0.5,
+            "Consistent with your other numbers, but still in pixels: half of the points.",
+            code,
+        )
     if _is_paid(asked, factor):
         message = "Consistent with your other numbers: off by the same factor, which is counted only once."
         return Outcome.RIGHT, 1.0, message, code

@@ -100,7 +100,7 @@ def _from_text(answer: Answer, text: str, question: Question) -> Stated | Unstat
         return Unstated(Outcome.UNSURE, f"'{answer.text}' can be read in two ways. {error.hint}".strip())
     except InputError as error:
         return _unreadable(answer, error)
-    shown = answer.text if text == answer.text else f"{answer.text} {reading.unit}".strip()
+    shown = answer.text if text.strip() == answer.text else f"{answer.text} {reading.unit}".strip()
     return Stated(reading.value, _half_unit(text, reading, question), shown, not reading.unit_assumed)
 
 
@@ -120,9 +120,9 @@ def _unreadable(answer: Answer, error: InputError) -> Unstated:
 
 
 def _half_unit(text: str, reading: Reading, question: Question) -> float:
-    """Return half of the last written digit in SI, 0 for a number that no person rounded."""
+    """Return half of the last written digit in SI; 0 for zero, and for a number that no person rounded."""
     found = re.match(r"\s*[-+−]?([\d]*)(?:[.,](\d*))?(?:[eE]([-+]?\d+))?", text)
-    if found is None or len((found[1] or "").lstrip("0") + (found[2] or "")) >= _EXACT_DIGITS:
+    if found is None or reading.value == 0 or len((found[1] or "").lstrip("0") + (found[2] or "")) >= _EXACT_DIGITS:
         return 0.0
     decimals = len(found[2] or "") - int(found[3] or 0)
     factor = UNITS[question.dimension].get(reading.unit, 0.0)

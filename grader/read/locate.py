@@ -17,6 +17,7 @@ from grader.read.table import read_table
 
 _LABEL_REACH = 4  # how many columns right of a label an answer may stand
 _META_SHEET = "_meta"
+_NO_ANSWERS = ("tracking", "instructions", _META_SHEET)  # our own sheets without answers
 
 
 @dataclass(frozen=True)
@@ -121,7 +122,7 @@ def _by_label(book: Book, question: Question) -> Answer | None:
         found = [
             (sheet, place)
             for sheet in book.sheets
-            if sheet.is_visible and not _is_table(sheet)
+            if sheet.is_visible and not sheet.name.lower().startswith(_NO_ANSWERS)
             for place, cell in sheet.cells.items()
             if cell.kind is Kind.TEXT and wanted and _plain(cell.text) == _plain(wanted)
         ]
@@ -144,10 +145,6 @@ def _beside(sheet: Sheet, label: Place, question: Question) -> Answer:
 def place_is_new(sheet: Sheet, place: Place, label: Place) -> bool:
     """Tell whether `place` does not merely show the label's own merged cell."""
     return place in sheet.cells or sheet.at(place) is not sheet.at(label)
-
-
-def _is_table(sheet: Sheet) -> bool:
-    return sheet.name.lower().startswith(("tracking", _META_SHEET))
 
 
 def _plain(text: str) -> str:

@@ -198,4 +198,4 @@ def shortest(number: float) -> str:
     >>> shortest(0.1 + 0.2), shortest(15.0)
     ('0.3', '15')
     """
-    return format(number, ".15g")
+    return format(number + 0.0, ".15g")  # adding zero turns -0 into 0

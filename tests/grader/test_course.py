@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 
 from assignments.course import Course, new_course
+from assignments.load import load_assignment
 from assignments.usecases import HandedOut
 from assignments.variants import signature_of
 from assignments.workbook import fill_workbook, write_workbook
@@ -27,6 +28,10 @@ from grader.roster import read_roster
 from grader.usecases import check_workbook, grade_files, hand_out_to
 from vml_course.cli import run
 from vml_course.errors import FileMissingError, InputError
+
+
+TOTAL = load_assignment("soccer-kick").total_points
+FOR_E = load_assignment("soccer-kick").question("e").points
 
 
 @dataclass
@@ -118,7 +123,7 @@ def test_runs_are_added_and_the_newest_counts(room):
     assert (again.attempt, better.attempt) == (1, 2)
     with Gradebook.open(room.course) as book:
         (row,) = book.rows()
-        assert (row.points, row.attempt, row.student.name) == (20.0, 2, "Ana Example")
+        assert (row.points, row.attempt, row.student.name) == (TOTAL, 2, "Ana Example")
         assert book.rows("another") == ()
         assert book.is_whole()
     with sqlite3.connect(room.course.folder / "gradebook.db") as connection:
@@ -190,8 +195,8 @@ def test_a_batch_is_graded_recorded_and_explained(room):
     told = []
     graded = grade_files(room.course, [room.course.folder / "returned"], progress=lambda *done: told.append(done))
     assert [(item.file.name, item.status, item.points) for item in graded] == [
-        ("from 0.xlsx", "ok", 20.0),
-        ("from 1.xlsx", "ok", 14.0),
+        ("from 0.xlsx", "ok", TOTAL),
+        ("from 1.xlsx", "ok", TOTAL - FOR_E),
         ("notes.xlsx", "unreadable", 0.0),
     ]
     assert told == [(1, 3), (2, 3), (3, 3)]
@@ -358,7 +363,7 @@ def test_grade_prints_json_and_ends_with_one_when_someone_should_look(room, caps
     bad.write_bytes(b"")
     course = ["--course", str(room.course.folder)]
     assert run(["grade", str(good), *course, "--json"]) == 0
-    assert json.loads(capsys.readouterr().out)[0]["points"] == 20.0
+    assert json.loads(capsys.readouterr().out)[0]["points"] == TOTAL
     assert run(["grade", str(good), str(bad), *course]) == 1
     shown = capsys.readouterr().out
     assert "empty file" in shown
@@ -369,7 +374,7 @@ def test_the_gradebook_is_shown(room, capsys):
     grade_files(room.course, [room.workbook(0)])
     assert run(["gradebook", "show", "--course", str(room.course.folder)]) == 0
     shown = capsys.readouterr().out
-    assert "20 / 20" in shown
+    assert f"{TOTAL:g} / {TOTAL:g}" in shown
     assert shown.count("nothing graded yet") == 2
     assert run(["gradebook", "show", "--course", str(room.course.folder), "--json"]) == 0
     assert json.loads(capsys.readouterr().out)[0]["student"]["name"] == "Ana Example"

@@ -112,12 +112,21 @@ def test_a_right_formula_with_right_inputs_and_a_far_value_is_not_excused(desk):
     assert value_finding(result, "I").outcome is Outcome.WRONG
 
 
-def test_uncalibrated_velocities_cost_once_and_are_named(desk):
-    """The scale pays; velocities, e and I follow from it."""
+def test_uncalibrated_velocities_cost_half_and_are_named(desk):
+    """A step was left out: the scale is wrong, the velocities are half right, e and I follow from them."""
     changes = {name: desk.truth[name] * 500 for name in VELOCITIES}
     result = desk.grade({**changes, "px_per_m": 1.0, "I": desk.truth["I"] * 500})
-    assert result.points == pytest.approx(20 - 0.9)
+    assert result.points == pytest.approx(20 - 0.9 - 0.45 - 0.45 - 0.675)
     assert [d.codes for d in result.diagnosis] == [("K1",)]
+    assert value_finding(result, "v_f1").outcome is Outcome.PARTIAL
+    assert value_finding(result, "I").carried
+
+
+def test_a_scale_that_is_a_little_off_costs_once(desk):
+    """Velocities that follow from it are right in themselves."""
+    changes = {name: desk.truth[name] * 1.15 for name in VELOCITIES}
+    result = desk.grade({**changes, "px_per_m": 500 / 1.15, "I": desk.truth["I"] * 1.15})
+    assert result.points == pytest.approx(20 - 0.9)
     assert all(value_finding(result, name).carried for name in ("v_f1", "v_f2", "v_b2", "I"))
 
 
