@@ -27,6 +27,7 @@ _IGNORED = """\
 /gradebook*
 /handouts/
 /.making-*/
+/inbox/
 /submissions/
 /feedback/
 /roster.csv

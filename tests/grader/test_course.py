@@ -29,7 +29,6 @@ from grader.usecases import check_workbook, grade_files, hand_out_to
 from vml_course.cli import run
 from vml_course.errors import FileMissingError, InputError
 
-
 TOTAL = load_assignment("soccer-kick").total_points
 FOR_E = load_assignment("soccer-kick").question("e").points
 
