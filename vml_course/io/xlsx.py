@@ -11,6 +11,7 @@ import numpy as np
 from openpyxl import Workbook
 from openpyxl.styles import Alignment, Font
 from openpyxl.utils import get_column_letter
+from openpyxl.worksheet.properties import PageSetupProperties
 from openpyxl.worksheet.table import Table, TableStyleInfo
 from openpyxl.worksheet.worksheet import Worksheet
 
@@ -48,7 +49,7 @@ def _write_readme(book: Workbook, lines: Iterable[tuple[str, str]]) -> None:
     for row, (label, text) in enumerate(lines, start=1):
         put(sheet, row, 1, label)
         put(sheet, row, 2, text)
-        sheet.cell(row, 1).font = Font(bold=True)
+        sheet.cell(row, 1).font = Font(name="Calibri", size=11, bold=True)
         sheet.cell(row, 2).alignment = Alignment(wrap_text=True, vertical="top")
     sheet.column_dimensions["A"].width, sheet.column_dimensions["B"].width = 22, 90
 
@@ -77,6 +78,8 @@ def _add_facts(book: Workbook, title: str, header: Sequence[str], rows: Sequence
 def _finish(sheet: Worksheet, title: str, width: int, height: int, freeze: str) -> None:
     """Freeze the header and name the table, so that formulas and pandas can ask for it by name."""
     sheet.freeze_panes = freeze
+    sheet.page_setup.orientation, sheet.page_setup.fitToHeight = "landscape", 0
+    sheet.sheet_properties.pageSetUpPr = PageSetupProperties(fitToPage=True)
     table = Table(displayName=f"tbl{title}", ref=f"A1:{get_column_letter(width)}{max(height, 2)}")
     table.tableStyleInfo = TableStyleInfo(name="TableStyleLight1", showRowStripes=True)
     sheet.add_table(table)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import combinations
 from pathlib import Path
 
 import numpy as np
@@ -22,6 +23,7 @@ from vml_course.usecases.cut_clip import warnings_of
 
 __all__ = ["TrackRequest", "Tracked", "VectorRequest", "track_clip"]
 
+MERGED_PX = 1.5
 Progress = Callable[[int, int], None]
 
 
@@ -197,7 +199,7 @@ def _tracked(
         sha256=source.sha256,
         time_base=f"{stamps}, 0 at the first frame",
         scale_relative_sd=relative_scale_sd(calibration.stick_px) if calibration and calibration.stick_px else None,
-        warnings=(*warnings_of(source), *_lost_points(track)),
+        warnings=(*warnings_of(source), *_lost_points(track), *_merged_points(track)),
         path=source.path,
         first_picture=request.start,
         picture_step=request.step,
@@ -215,3 +217,13 @@ def _lost_points(track: Track) -> Iterator[str]:
         if len(lost):
             first = int(track.frame[lost[0]])
             yield f"{point}: lost in {len(lost)} of {len(track.frame)} frames, first in frame {first}."
+
+
+def _merged_points(track: Track) -> Iterator[str]:
+    """Say when two points come to lie on one place: with marks that look alike, one track can jump to the other."""
+    for one, other in combinations(range(len(track.points)), 2):
+        apart = np.hypot(*(track.xy_px[:, one] - track.xy_px[:, other]).T)
+        merged = np.flatnonzero(apart < MERGED_PX)
+        if len(merged) and apart[0] > 5 * MERGED_PX:
+            first = int(track.frame[merged[0]])
+            yield f"{track.points[one]} and {track.points[other]}: on one place from frame {first} on; one has jumped."
