@@ -55,7 +55,7 @@ def demo(
         return
     typer.echo(f"A sample course of {students} is in {result.course}. What the students did, and what the grader says:")
     for item in result.graded:
-        typer.echo(f"  {item.points:4g} / {item.out_of:g}  {result.stories[item.pid]}")
+        typer.echo(f"  {item.points:4.1f} / {item.out_of:g}  {result.stories[item.pid]}")
     typer.echo("Open these in a browser:")
     typer.echo(f"  class page      {result.class_page}")
     for item in result.graded:

@@ -24,12 +24,13 @@ from vml_course.kinetics.lines import solve_by_lines
 from vml_course.model.track import Seed
 from vml_course.model.tracked import Tracked
 from vml_course.usecases.export_track import export_track
-from vml_course.usecases.track_clip import TrackRequest, track_clip
+from vml_course.usecases.track_clip import TrackRequest, VectorRequest, track_clip
 
 ASSIGNMENT = "soccer-kick"
 MARKER = ".vml-demo"
 NAMES = ("Ana", "Ben", "Chi", "Dana", "Emre", "Fei", "Gita", "Hugo", "Ines", "Jun", "Kofi", "Lena")
 MOST_STUDENTS = 60
+LEG = (VectorRequest("leg", "knee", "foot"),)
 EXPORTS = ("track.xlsx", "track.csv", "track.mat")
 
 Answers = Mapping[str, float]
@@ -162,7 +163,7 @@ def _measure(handed: Path, desk: Path, key: AnswerKey) -> Tracked:
     (video,) = handed.glob("video.*")
     seeds = tuple(Seed(name, *map(round, xy)) for name, xy in zip(key.points, key.xy_px[0].tolist(), strict=True))
     bar = tuple(float(round(key.truth[f"stick_{end}_px"])) for end in ("x1", "y1", "x2", "y2"))
-    request = TrackRequest(video=video, seeds=seeds, stick_px=bar, length_m=1.0, fps=key.truth["fps"])
+    request = TrackRequest(video=video, seeds=seeds, stick_px=bar, length_m=1.0, fps=key.truth["fps"], vectors=LEG)
     tracked = track_clip(request)
     export_track(tracked, [desk / name for name in EXPORTS], overlay=desk / "overlay.mp4")
     return tracked
@@ -175,7 +176,7 @@ def _right_answers(tracked: Tracked, key: AnswerKey) -> Answers:
     found = solve_by_lines(tracked.motion, {"m": key.given["m"], "L": key.given["L"]})
     values = {symbol: found.value(symbol) for symbol in key.values if symbol in found.estimates}
     values |= {"px_per_m": tracked.calibration.px_per_m, "fps": tracked.fps}
-    return {name: float(f"{value:.4g}") for name, value in values.items()}
+    return {name: round(float(f"{value:.4g}"), 4) for name, value in values.items()}
 
 
 def _table(tracked: Tracked, points: Sequence[str]) -> dict[str, Sequence[float]]:
