@@ -199,6 +199,10 @@ def test_names_become_identifiers_that_differ_without_regard_to_case() -> None:
     assert len({name.lower() for name in mapped.values()}) == 6
 
 
+def test_no_name_reads_as_the_escape_of_a_letter_in_a_workbook() -> None:
+    assert [*identifiers(["toe_x41", "a_x0041_b", "x1"]).values()] == ["toex41", "ax0041_b", "x1"]
+
+
 # ---------------------------------------------------------------- tables of others
 
 

@@ -44,7 +44,7 @@ def _scale_facts(calibration: Calibration, relative_sd: float | None) -> list[Fa
     if relative_sd is not None:
         facts.append(("relative_uncertainty", relative_sd, ""))
     if calibration.stick_px is not None:
-        stick = zip(("x1", "y1", "x2", "y2"), calibration.stick_px, strict=True)
+        stick = zip(("1_x", "1_y", "2_x", "2_y"), calibration.stick_px, strict=True)
         facts += [(f"stick_{corner}_px", value, "px") for corner, value in stick]
     if calibration.length_m is not None:
         facts += [("true_length_m", calibration.length_m, "m"), ("length_typed", calibration.length_text, "")]

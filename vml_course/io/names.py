@@ -8,6 +8,9 @@ from collections.abc import Iterable
 
 LONGEST = 31  # leaves room for the suffixes below MATLAB's 63 characters
 
+# In a workbook `_x41_` stands for the letter with that number: such a name would come back changed.
+_ESCAPE = re.compile(r"_(?=[xX][0-9A-Fa-f]+(_|$))")
+
 
 def identifiers(names: Iterable[str]) -> dict[str, str]:
     """Map each name to letters, digits and underscores, unlike every other even when case is ignored.
@@ -29,4 +32,5 @@ def identifiers(names: Iterable[str]) -> dict[str, str]:
 def _plain(name: str) -> str:
     ascii_name = unicodedata.normalize("NFKD", name.replace("ß", "ss")).encode("ascii", "ignore").decode()
     plain = re.sub(r"[^A-Za-z0-9]+", "_", ascii_name).strip("_") or "P"
+    plain = _ESCAPE.sub("", plain)
     return (plain if plain[0].isalpha() else f"P{plain}")[:LONGEST]

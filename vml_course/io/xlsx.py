@@ -20,6 +20,7 @@ from vml_course.io.columns import Column, data_columns, quality_columns
 from vml_course.io.files import replacing
 from vml_course.model.tracked import Tracked
 
+BOLD = Font(name="Calibri", size=11, bold=True)
 _CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
 
 
@@ -49,9 +50,10 @@ def _write_readme(book: Workbook, lines: Iterable[tuple[str, str]]) -> None:
     for row, (label, text) in enumerate(lines, start=1):
         put(sheet, row, 1, label)
         put(sheet, row, 2, text)
-        sheet.cell(row, 1).font = Font(name="Calibri", size=11, bold=True)
+        sheet.cell(row, 1).font = BOLD
         sheet.cell(row, 2).alignment = Alignment(wrap_text=True, vertical="top")
     sheet.column_dimensions["A"].width, sheet.column_dimensions["B"].width = 22, 90
+    _print_on_one_width(sheet)
 
 
 def _add_table(book: Workbook, title: str, columns: Sequence[Column]) -> None:
@@ -78,11 +80,17 @@ def _add_facts(book: Workbook, title: str, header: Sequence[str], rows: Sequence
 def _finish(sheet: Worksheet, title: str, width: int, height: int, freeze: str) -> None:
     """Freeze the header and name the table, so that formulas and pandas can ask for it by name."""
     sheet.freeze_panes = freeze
-    sheet.page_setup.orientation, sheet.page_setup.fitToHeight = "landscape", 0
-    sheet.sheet_properties.pageSetUpPr = PageSetupProperties(fitToPage=True)
+    _print_on_one_width(sheet)
+    for cell in sheet[1]:
+        cell.font = BOLD
     table = Table(displayName=f"tbl{title}", ref=f"A1:{get_column_letter(width)}{max(height, 2)}")
     table.tableStyleInfo = TableStyleInfo(name="TableStyleLight1", showRowStripes=True)
     sheet.add_table(table)
+
+
+def _print_on_one_width(sheet: Worksheet) -> None:
+    sheet.page_setup.orientation, sheet.page_setup.fitToHeight = "landscape", 0
+    sheet.sheet_properties.pageSetUpPr = PageSetupProperties(fitToPage=True)
 
 
 def put(sheet: Worksheet, row: int, place: int, value: Any, display: str = "General") -> None:
