@@ -47,7 +47,7 @@ def unwrapped(angle_rad: FloatArray) -> FloatArray:
 def vml_angle_deg(way: FloatArray) -> FloatArray:
     """Return the angle to the unit x vector by the inner product, 0 to 180 degrees: it knows no sign.
 
-    The original VML exports this angle (its paper, section 3.4); near 0 and 180 it is blunt.
+    The original VML exports this angle (its paper, section 4.2); near 0 and 180 it is blunt.
     """
     length = np.hypot(way[:, 0], way[:, 1])
     cosine = np.divide(way[:, 0], length, out=np.full_like(length, np.nan), where=length > 0)
