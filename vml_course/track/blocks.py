@@ -1,0 +1,135 @@
+"""What the methods that do not turn their block share: seeds that can be followed, likeness, sigma, sightings."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import cv2
+import numpy as np
+
+from vml_course.correlate.template import first_pixel
+from vml_course.correlate.texture import GRADIENT_NOISE, noise_grey, texture_of
+from vml_course.errors import SeedError
+from vml_course.model.arrays import FloatArray
+from vml_course.model.frame import Luma
+from vml_course.model.track import Sighting, Status
+
+
+class Found(NamedTuple):
+    """One point in one picture: place, standard deviation of a coordinate, ZNCC with the first block, steps."""
+
+    xy_px: FloatArray
+    sigma_px: float
+    zncc: float
+    iterations: int
+
+
+def check_block(luma: Luma, name: str, point: tuple[float, float], size: int) -> None:
+    """Refuse a point whose block does not lie inside the picture, or has nothing to hold on to.
+
+    Raises
+    ------
+    SeedError
+    """
+    height, width = luma.shape
+    half = 0.5 * (size - 1)
+    inside = np.all(np.isfinite(point))
+    if not inside or not all(
+        0 <= first_pixel(c, size) <= n - size for c, n in zip(point, (width, height), strict=True)
+    ):
+        raise SeedError(
+            name,
+            f"a point from ({half:g}, {half:g}) to ({width - 1 - half:g}, {height - 1 - half:g}) px",
+            f"({point[0]:g}, {point[1]:g})",
+            f"The block of {size} px must lie inside the picture: move the point or take a smaller block.",
+        )
+    texture = texture_of(cut(luma, point, size))
+    expected = f"a block with texture around ({point[0]:g}, {point[1]:g})"
+    if texture.strongest <= texture.insignificant:
+        raise SeedError(name, expected, "a blank one (no texture)", "Move the point to a spot with a pattern.")
+    if texture.weakest <= texture.insignificant:
+        raise SeedError(name, expected, "only an edge, along which it slides", "Take a corner or a larger block.")
+
+
+def cut(luma: Luma, point: tuple[float, float], size: int) -> Luma:
+    """Return the size x size pixels whose middle is nearest to a point that `check_block` has passed."""
+    x0, y0 = (first_pixel(c, size) for c in point)
+    return np.asarray(luma[y0 : y0 + size, x0 : x0 + size])
+
+
+def seen_at(luma: Luma, block: Luma, offset: FloatArray, xy_px: FloatArray) -> FloatArray:
+    """Return the grey levels under an unturned block, shape (n, m), interpolated linearly.
+
+    Parameters
+    ----------
+    luma : uint8 array
+    block : uint8 array, shape (n, m)
+    offset : float array, shape (2,)
+        From the point to the block's middle, px.
+    xy_px : float array, shape (2,)
+        Where the point is.
+    """
+    x, y = (xy_px + offset).tolist()
+    patch = cv2.getRectSubPix(luma, block.shape[::-1], (x, y), patchType=cv2.CV_32F)
+    return np.asarray(patch, dtype=np.float64)
+
+
+def middle_offset(point: tuple[float, float], size: int) -> FloatArray:
+    """Return the way from a point to the middle of its block, px: less than half a pixel."""
+    return np.array([first_pixel(c, size) + 0.5 * (size - 1) - c for c in point])
+
+
+def zncc(a: FloatArray | Luma, b: FloatArray | Luma) -> float:
+    """Return the zero-normalised cross-correlation of two blocks; 0 when one of them is blank.
+
+    >>> zncc(np.array([[1.0, 2.0], [3.0, 5.0]]), np.array([[12.0, 14.0], [16.0, 20.0]]))
+    1.0
+    """
+    p, q = (np.asarray(block, np.float64) - np.mean(block) for block in (a, b))
+    norm = float(np.sqrt((p * p).sum() * (q * q).sum()))
+    return float((p * q).sum()) / norm if norm > 0.0 else 0.0
+
+
+def shift_variance(reference: FloatArray | Luma, seen: FloatArray | Luma) -> float:
+    """Return the variance of a coordinate (mean of x and y, px squared) of a block that was shifted onto another.
+
+    The residual counts as white noise: s**2 tr(M^-1) / 2 with M the summed gradient products of the blocks'
+    mean, blurred by 1 px and cleaned of the noise's part; infinite when nothing is left of them.
+    """
+    a, b = np.asarray(reference, np.float64), np.asarray(seen, np.float64)
+    residual = float(np.var((b - b.mean()) - (a - a.mean())))
+    smooth = cv2.GaussianBlur(0.5 * (a + b), (0, 0), 1.0)
+    down, across = np.gradient(smooth)
+    xx, xy, yy = (across * across).sum(), (across * down).sum(), (down * down).sum()
+    noise = noise_grey(a) ** 2 * GRADIENT_NOISE * a.size
+    xx, yy = xx - noise, yy - noise
+    determinant = xx * yy - xy * xy
+    return float(0.5 * residual * (xx + yy) / determinant) if min(xx, yy, determinant) > 0.0 else float("inf")
+
+
+def expected_variance(block: Luma) -> float:
+    """Return the variance of a coordinate that the block's own noise leads one to expect of a match, px squared."""
+    texture = texture_of(block)
+    inverse = 0.5 * (1.0 / texture.weakest + 1.0 / texture.strongest)
+    return 2.0 * noise_grey(block) ** 2 * inverse  # both pictures are noisy
+
+
+def first_sighting(points: FloatArray, sigma_px: FloatArray) -> Sighting:
+    """Return the seeds themselves as the first sighting; the block is not deformed against itself."""
+    p = len(points)
+    return Sighting(
+        points, sigma_px, np.ones(p), np.zeros(p, np.int64), np.full(p, Status.AUTO, np.int8), np.zeros((p, 4))
+    )
+
+
+def sighting_of(found: Sequence[Found | None]) -> Sighting:
+    """Return the sighting of points, None where lost; what a method that only shifts cannot see is NaN."""
+    p = len(found)
+    xy, sigma, likeness = np.full((p, 2), np.nan), np.full(p, np.nan), np.full(p, np.nan)
+    iterations, status = np.zeros(p, np.int64), np.full(p, Status.LOST, np.int8)
+    for k, one in enumerate(found):
+        if one is not None:
+            xy[k], sigma[k], likeness[k], iterations[k] = one
+            status[k] = Status.AUTO
+    return Sighting(xy, sigma, likeness, iterations, status, np.full((p, 4), np.nan))
