@@ -28,7 +28,7 @@ from vml_course.usecases.track_clip import TrackRequest, VectorRequest, track_cl
 
 ASSIGNMENT = "soccer-kick"
 MARKER = ".vml-demo"
-NAMES = ("Ana", "Ben", "Chi", "Dana", "Emre", "Fei", "Gita", "Hugo", "Ines", "Jun", "Kofi", "Lena")
+NAMES = ("Ana", "Ben", "Chi", "Dana", "Emre", "Fei", "Gita", "Hugo", "Iris", "Jun", "Kofi", "Lena")
 MOST_STUDENTS = 60
 LEG = (VectorRequest("leg", "knee", "foot"),)
 EXPORTS = ("track.xlsx", "track.csv", "track.mat")
