@@ -36,13 +36,13 @@ _QUADRATIC = np.linalg.pinv(np.stack([np.ones(9), _ACROSS, _DOWN, _ACROSS**2, _A
 
 @dataclass(frozen=True, eq=False)
 class Sliding:
-    """One point: its first block, the template in use, and where it was last seen."""
+    """One point: its first block, the template in use and how far off it may be cut, and where it was last seen."""
 
     first: Luma
     first_offset: FloatArray
     template: Luma
     offset: FloatArray
-    template_variance: float
+    drift_px: float
     xy_px: FloatArray
     lost: int = 0
 
@@ -123,12 +123,14 @@ class Block:
         likeness = zncc(point.template, seen)
         if likeness < self.zncc_lost:
             return lost
-        variance = point.template_variance + PARABOLA_PX**2 + shift_variance(point.template, seen)
+        white, structured = shift_variance(point.template, seen)
+        drift = point.drift_px + float(np.sqrt(structured))
+        sigma = float(np.sqrt(white + PARABOLA_PX**2 + drift**2))
         first = zncc(point.first, seen_at(luma, point.first, point.first_offset, at))
         followed = replace(point, xy_px=at, lost=0)
         if likeness < self.renew_below:
-            followed = _renewed(followed, luma, variance)
-        return followed, Found(at, float(np.sqrt(variance)), first, 1)
+            followed = _renewed(followed, luma, sigma)
+        return followed, Found(at, sigma, first, 1)
 
 
 def slide(luma: Luma, template: Luma, middle: FloatArray, radius: float) -> FloatArray | None:
@@ -166,14 +168,14 @@ def vertex(values: FloatArray) -> FloatArray:
     return np.asarray(np.clip([(e * c - 2.0 * f * b) / determinant, (e * b - 2.0 * d * c) / determinant], -1.0, 1.0))
 
 
-def _renewed(point: Sliding, luma: Luma, variance: float) -> Sliding:
+def _renewed(point: Sliding, luma: Luma, sigma_px: float) -> Sliding:
     """Return the point with a template cut where it is now, when that lies inside the picture."""
     at, size = (float(point.xy_px[0]), float(point.xy_px[1])), point.template.shape[0]
     first = [first_pixel(c, size) for c in at]
     if min(first) < 0 or first[0] + size > luma.shape[1] or first[1] + size > luma.shape[0]:
         return point
     template = cut(luma, at, size).copy()
-    return replace(point, template=template, offset=middle_offset(at, size), template_variance=variance)
+    return replace(point, template=template, offset=middle_offset(at, size), drift_px=sigma_px)
 
 
 METHOD = Block

@@ -26,20 +26,22 @@ from vml_course.track.blocks import (
     zncc,
 )
 
-STEPS, SMALLEST_STEP_PX = 40, 0.001
+STOP = (cv2.TERM_CRITERIA_COUNT | cv2.TERM_CRITERIA_EPS, 20, 0.005)  # steps, px
+FROM_GUESS = cv2.OPTFLOW_USE_INITIAL_FLOW
 REACH_PX = 24  # of one level of the pyramid, beyond the block
-RESIDUAL_RATE_PX = 0.02  # systematic error of one step: 8-bit gradients, linear interpolation
+STEP_PX = 0.001  # systematic error of one step: 8-bit gradients, linear interpolation
 
 
 @dataclass(frozen=True, eq=False)
 class Flowing:
-    """One point: its first block, and where and in which picture it was last seen."""
+    """One point: its first block, where and in which picture it was last seen, and the drift that is to be feared."""
 
     first: Luma
     offset: FloatArray
     picture: Luma
     xy_px: FloatArray
-    variance: float
+    speed_px: FloatArray
+    drift_px: float = 0.0
     lost: int = 0
 
 
@@ -72,7 +74,7 @@ class Flow:
     title: ClassVar[str] = "optical flow (Lucas-Kanade) from picture to picture: forgiving, but it drifts"
 
     block: float = quantity(60, "px", 11, 301, about="side of the block whose shift is found", whole=True)
-    levels: float = quantity(3, "", 0, 6, about="halvings of the picture above the finest", whole=True)
+    levels: float = quantity(2, "", 0, 6, about="halvings of the picture above the finest", whole=True)
     back_px: float = quantity(1.0, "px", 0.05, 10.0, about="farthest from its place that the way back may end")
     zncc_lost: float = quantity(0.6, "", 0.3, 0.99, about="least correlation with the picture before")
     give_up_frames: float = quantity(
@@ -97,7 +99,7 @@ class Flow:
         """
         points = np.asarray(seeds_px, dtype=np.float64).reshape(-1, 2)
         learnt = tuple(self._learn(luma, f"seed {k}", point) for k, point in enumerate(points, start=1))
-        return FlowState(learnt), first_sighting(points, np.sqrt([point.variance for point in learnt]))
+        return FlowState(learnt), first_sighting(points, np.sqrt([expected_variance(point.first) for point in learnt]))
 
     def step(self, state: FlowState, luma: Luma) -> tuple[FlowState, Sighting]:
         """Find the points in the next picture."""
@@ -108,7 +110,7 @@ class Flow:
         point, size = (float(at[0]), float(at[1])), int(self.block)
         check_block(luma, name, point, size)
         first = cut(luma, point, size).copy()
-        return Flowing(first, middle_offset(point, size), luma, at, expected_variance(first))
+        return Flowing(first, middle_offset(point, size), luma, at, np.zeros(2))
 
     def _follow(self, point: Flowing, luma: Luma) -> tuple[Flowing, Found | None]:
         if point.lost >= self.give_up_frames:
@@ -122,38 +124,60 @@ class Flow:
         )
         if zncc(before, now) < self.zncc_lost:
             return replace(point, lost=point.lost + 1), None
-        added = max(shift_variance(before, now), 0.25 * missed_px**2, RESIDUAL_RATE_PX**2)
-        variance = point.variance + added
-        found = Found(there, float(np.sqrt(variance)), zncc(point.first, now), 0)
-        return Flowing(point.first, point.offset, luma, there, variance), found
+        white, structured = shift_variance(before, now)
+        # Noise does not add up: what is wrong in this picture is undone by the next. The rest goes on and on.
+        drift = point.drift_px + float(np.sqrt(structured + 0.25 * missed_px**2)) + STEP_PX
+        found = Found(there, float(np.hypot(np.sqrt(white), drift)), zncc(point.first, now), 0)
+        return Flowing(point.first, point.offset, luma, there, (there - point.xy_px) / (point.lost + 1), drift), found
 
     def _moved(self, point: Flowing, luma: Luma) -> tuple[FloatArray, float] | None:
-        """Return where the block went, and by how much the way back misses; None when it went nowhere."""
-        window = _window(luma.shape, point.xy_px, int(self.block), int(self.levels))
+        """Return where the block went, and by how much the way back misses; None when it went nowhere.
+
+        The first guess is that it goes on as before, the second that it stopped.
+        """
+        for guess in (point.xy_px + (point.lost + 1) * point.speed_px, point.xy_px):
+            moved = self._moved_from(guess, point, luma) if _is_inside(guess, luma) else None
+            if moved is not None:
+                return moved
+        return None
+
+    def _moved_from(self, guess: FloatArray, point: Flowing, luma: Luma) -> tuple[FloatArray, float] | None:
+        size, levels = int(self.block), int(self.levels)
+        window = _window(luma.shape, (point.xy_px, guess), size, levels)
         earlier, later = point.picture[window], luma[window]
         corner = np.array([window[1].start, window[0].start], np.float64)
-        start = point.xy_px - corner
-        there = self._shifted(earlier, later, start)
-        back = None if there is None else self._shifted(later, earlier, there)
+        start, onward = point.xy_px - corner, guess - point.xy_px
+        there = _shifted((earlier, later), start, start + onward, (size, levels))
+        back = None if there is None else _shifted((later, earlier), there, there - onward, (size, levels))
         if there is None or back is None:
             return None
         missed, at = float(np.hypot(*(back - start))), there + corner
-        room = np.array(luma.shape[::-1]) - 1.0
-        return (at, missed) if missed <= self.back_px and np.all((at >= 0.0) & (at <= room)) else None
-
-    def _shifted(self, earlier: Luma, later: Luma, at: FloatArray) -> FloatArray | None:
-        size, place = int(self.block), at.astype(np.float32).reshape(1, 1, 2)
-        stop = (cv2.TERM_CRITERIA_COUNT | cv2.TERM_CRITERIA_EPS, STEPS, SMALLEST_STEP_PX)
-        there, found, _ = cv2.calcOpticalFlowPyrLK(
-            earlier, later, place, np.empty_like(place), winSize=(size, size), maxLevel=int(self.levels), criteria=stop
-        )
-        return np.asarray(there, np.float64).reshape(2) if found.item() else None
+        return (at, missed) if missed <= self.back_px and _is_inside(at, luma) else None
 
 
-def _window(shape: tuple[int, ...], at: FloatArray, size: int, levels: int) -> tuple[slice, slice]:
-    """Return the part of the picture that the pyramid needs; building it for the whole would cost most of the time."""
+def _is_inside(at: FloatArray, luma: Luma) -> bool:
+    return bool(np.all((at >= 0.0) & (at <= np.array(luma.shape[::-1]) - 1.0)))
+
+
+def _shifted(
+    pictures: tuple[Luma, Luma], at: FloatArray, guess: FloatArray, sizes: tuple[int, int]
+) -> FloatArray | None:
+    """Return where the block about a point of the first picture is in the second one."""
+    place, start = (p.astype(np.float32).reshape(1, 1, 2) for p in (at, guess))
+    there, found, _ = cv2.calcOpticalFlowPyrLK(
+        *pictures, place, start, winSize=(sizes[0],) * 2, maxLevel=sizes[1], criteria=STOP, flags=FROM_GUESS
+    )
+    return np.asarray(there, np.float64).reshape(2) if found.item() else None
+
+
+def _window(shape: tuple[int, ...], places: tuple[FloatArray, ...], size: int, levels: int) -> tuple[slice, slice]:
+    """Return the part of the pictures that the pyramids need: building them for the whole costs most of the time."""
     reach = size // 2 + REACH_PX * 2 ** min(levels, 2)
-    x, y = (slice(max(0, int(c) - reach), min(n, int(c) + reach + 2)) for c, n in zip(at, shape[::-1], strict=True))
+    low, high = np.min(places, axis=0), np.max(places, axis=0)
+    x, y = (
+        slice(max(0, int(a) - reach), min(n, int(b) + reach + 2))
+        for a, b, n in zip(low, high, shape[::-1], strict=True)
+    )
     return y, x
 
 
