@@ -8,7 +8,7 @@ import av
 import cv2
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 from vml_course.errors import FileFormatError, FileMissingError, FrameRangeError, InputError, VideoError
@@ -258,6 +258,7 @@ def test_garbage_is_a_video_error_and_nothing_else(tmp_path: Path, data: bytes, 
 @given(
     place=st.floats(0, 0.999), patch=st.binary(min_size=1, max_size=400), name=st.sampled_from(["mp4", "avi", "mkv"])
 )
+@example(place=0.025, patch=b"\x80", name="mp4")  # metadata that is no UTF-8
 def test_a_video_with_wounds_is_read_or_refused_but_never_a_traceback(
     clips: dict[str, Path], tmp_path: Path, place: float, patch: bytes, name: str
 ) -> None:

@@ -33,7 +33,8 @@ def open_video(path: Path) -> Iterator[tuple[InputContainer, VideoStream]]:
         raise VideoError(path.name, EXPECTED, "an empty file (0 bytes)")
     options = {"format_whitelist": FORMATS, "protocol_whitelist": "file"}
     try:
-        with av.open(f"file:{path}", options=options) as container:
+        # Metadata is not ours to read: bytes that are no UTF-8 must not stop the pictures.
+        with av.open(f"file:{path}", options=options, metadata_errors="replace") as container:
             if not container.streams.video:
                 raise VideoError(path.name, EXPECTED, "a file without pictures")
             stream = container.streams.video[0]
