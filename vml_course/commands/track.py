@@ -11,6 +11,7 @@ import typer
 
 if TYPE_CHECKING:
     from vml_course.model.tracked import Tracked
+    from vml_course.usecases.check_points import PointCheck
     from vml_course.usecases.estimate_track import TrackEstimate
     from vml_course.usecases.summarise_track import PointSummary
 
@@ -57,6 +58,7 @@ def track(
         float | None, typer.Option(metavar="F", help="Share of the frame interval that the shutter is open, 0 to 1.")
     ] = None,
     estimate: Annotated[bool, typer.Option("--estimate", help="Say how long it will take, and end.")] = False,
+    check: Annotated[bool, typer.Option("--check", help="Say how well each point can be tracked, and end.")] = False,
     out: Annotated[
         list[Path] | None, typer.Option("-o", "--out", help="Table to write: .xlsx, .csv or .mat. Repeatable.")
     ] = None,
@@ -68,6 +70,7 @@ def track(
     """Track points through a video and write where they are in every frame."""
     from vml_course.commands._progress import progress
     from vml_course.errors import InputError
+    from vml_course.usecases.check_points import check_points
     from vml_course.usecases.estimate_track import estimate_track
     from vml_course.usecases.export_track import check_outputs, export_track
     from vml_course.usecases.summarise_track import summarise
@@ -88,6 +91,8 @@ def track(
         method=method,
         settings={name: value for name, value in given.items() if value is not None},
     )
+    if check:
+        raise typer.Exit(_print_checks(check_points(request), as_json))
     if estimate:
         _print_estimate(estimate_track(request), as_json)
         return
@@ -102,6 +107,28 @@ def track(
     for warning in tracked.warnings:
         typer.echo(f"warning: {warning}", err=True)
     _print(tracked, summarise(tracked), written, as_json)
+
+
+def _print_checks(checks: list[PointCheck], as_json: bool) -> int:
+    """Print the verdicts; return 1 when a point should not be tracked, else 0."""
+    if as_json:
+        typer.echo(json.dumps({one.seed.name: _check_facts(one) for one in checks}, indent=1, ensure_ascii=False))
+    else:
+        for one in checks:
+            typer.echo(f"{one.seed.name}: {one.found.verdict.value}. {one.text}")
+    return int(any(one.is_poor for one in checks))
+
+
+def _check_facts(one: PointCheck) -> dict[str, Any]:
+    found = one.found
+    return {
+        "verdict": found.verdict.value,
+        "sigma_px": found.sigma_px if math.isfinite(found.sigma_px) else None,
+        "noise_grey": found.noise_grey,
+        "rival_zncc": found.rival.zncc,
+        "rival_offset_px": found.rival.offset_px,
+        "text": one.text,
+    }
 
 
 def _print_estimate(found: TrackEstimate, as_json: bool) -> None:

@@ -34,24 +34,34 @@ def check_block(luma: Luma, name: str, point: tuple[float, float], size: int) ->
     ------
     SeedError
     """
-    height, width = luma.shape
-    half = 0.5 * (size - 1)
-    inside = np.all(np.isfinite(point))
-    if not inside or not all(
-        0 <= first_pixel(c, size) <= n - size for c, n in zip(point, (width, height), strict=True)
-    ):
-        raise SeedError(
-            name,
-            f"a point from ({half:g}, {half:g}) to ({width - 1 - half:g}, {height - 1 - half:g}) px",
-            f"({point[0]:g}, {point[1]:g})",
-            f"The block of {size} px must lie inside the picture: move the point or take a smaller block.",
-        )
+    check_block_fits(luma, name, point, size)
     texture = texture_of(cut(luma, point, size))
     expected = f"a block with texture around ({point[0]:g}, {point[1]:g})"
     if texture.strongest <= texture.insignificant:
         raise SeedError(name, expected, "a blank one (no texture)", "Move the point to a spot with a pattern.")
     if texture.weakest <= texture.insignificant:
         raise SeedError(name, expected, "only an edge, along which it slides", "Take a corner or a larger block.")
+
+
+def check_block_fits(luma: Luma, name: str, point: tuple[float, float], size: int) -> None:
+    """Refuse a point whose block does not lie inside the picture.
+
+    Raises
+    ------
+    SeedError
+    """
+    height, width = luma.shape
+    if np.all(np.isfinite(point)):
+        x0, y0 = (first_pixel(c, size) for c in point)
+        if 0 <= x0 <= width - size and 0 <= y0 <= height - size:
+            return
+    half = 0.5 * (size - 1)
+    raise SeedError(
+        name,
+        f"a point from ({half:g}, {half:g}) to ({width - 1 - half:g}, {height - 1 - half:g}) px",
+        f"({point[0]:g}, {point[1]:g})",
+        f"The block of {size} px must lie inside the picture: move the point or take a smaller block.",
+    )
 
 
 def cut(luma: Luma, point: tuple[float, float], size: int) -> Luma:
