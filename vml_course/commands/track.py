@@ -94,12 +94,14 @@ def track(
     if check:
         raise typer.Exit(_print_checks(check_points(request), as_json))
     if estimate:
+        _say_if_compiling(method)
         _print_estimate(estimate_track(request), as_json)
         return
     tables = out or []
     if not tables and overlay is None:
         raise InputError("-o", "a table or an overlay to write", "nothing", "Add -o track.xlsx.")
     check_outputs(tables, overlay)
+    _say_if_compiling(method)
     with progress(f"track {video.name}") as show:
         tracked = track_clip(request, show)
     with progress("draw overlay") as show:
@@ -107,6 +109,13 @@ def track(
     for warning in tracked.warnings:
         typer.echo(f"warning: {warning}", err=True)
     _print(tracked, summarise(tracked), written, as_json)
+
+
+def _say_if_compiling(method: str) -> None:
+    from vml_course.usecases.kernels_ready import compile_notice
+
+    if notice := compile_notice(method):
+        typer.echo(notice, err=True)
 
 
 def _print_checks(checks: list[PointCheck], as_json: bool) -> int:
