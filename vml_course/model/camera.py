@@ -25,12 +25,18 @@ class Camera:
     px_per_m: float = quantity(500.0, "px/m", 50.0, 5000.0, about="scale of the picture")
     origin_x_px: float = quantity(420.0, "px", -4000.0, 8000.0, about="where the world's origin is seen")
     origin_y_px: float = quantity(200.0, "px", -4000.0, 8000.0, about="where the world's origin is seen")
+    shutter: float = quantity(0.0, "", 0.0, 1.0, about="exposure as a part of the frame interval; 0 is a flash")
 
     def __post_init__(self) -> None:
         check_quantities(self)
         for name in ("width_px", "height_px"):
             if getattr(self, name) % 2:
                 raise InputError(name, "an even number of pixels (video halves the colour planes)", getattr(self, name))
+
+    @property
+    def exposure_s(self) -> float:
+        """How long the shutter is open; a frame's time is the middle of it."""
+        return self.shutter / self.fps
 
     @property
     def size_px(self) -> tuple[int, int]:

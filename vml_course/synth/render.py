@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import cv2
 import numpy as np
 
+from vml_course.model.arrays import FloatArray
+from vml_course.model.camera import Camera
 from vml_course.model.frame import Picture
 from vml_course.model.recording import Recording
 from vml_course.model.truth import Truth
+from vml_course.synth.exposure import Swept, count_instants, expose
+from vml_course.synth.path import fine_path
 from vml_course.synth.scene import Scene, scene_class
-from vml_course.synth.sprite import Planes, make_planes
+from vml_course.synth.sprite import Planes, Sprite, make_planes
 from vml_course.synth.texture import Plane, choose, normals
 
 NOISE_SPAN_PX = 256  # the noise field is that much larger than the picture; each frame reads it elsewhere
@@ -34,17 +38,32 @@ def scene_of(truth: Truth) -> Scene:
 def draw_frames(truth: Truth) -> Iterator[Planes]:
     """Yield the pictures without noise and rounding; each is overwritten by the next."""
     look = scene_of(truth).look(truth.camera, truth.seed)
+    sprites = [look.sprites[body] for body in truth.bodies]
     still = make_planes(look.background)
     planes = still.copy()
-    at_px = truth.camera.to_px(truth.pose[..., :2])
-    for frame, pose in enumerate(truth.pose):
-        changed = [
-            look.sprites[body].lay(planes, (at_px[frame, k, 0], at_px[frame, k, 1]), float(pose[k, 2]))
-            for k, body in enumerate(truth.bodies)
-        ]
+    for pose_px in exposures(truth, sprites):
+        changed = expose(planes, [Swept(sprite, pose_px[:, k]) for k, sprite in enumerate(sprites)])
         yield planes
         for box in changed:
             planes.restore(still, box)
+
+
+def exposures(truth: Truth, sprites: Sequence[Sprite]) -> Iterator[FloatArray]:
+    """Yield where the bodies are while each frame is exposed: shape (k, b, 3), px, px, rad, at k instants."""
+    if not truth.camera.shutter:
+        yield from to_picture(truth.camera, truth.pose[:, None])
+        return
+    path = fine_path(scene_of(truth), truth.camera.fps)
+    for time_s in truth.time_s:
+        rough = to_picture(truth.camera, path.at(time_s + truth.camera.exposure_s * np.linspace(-0.5, 0.5, 17)))
+        count = count_instants(sprites, rough)
+        middles = (np.arange(count) + 0.5) / count - 0.5
+        yield to_picture(truth.camera, path.at(time_s + truth.camera.exposure_s * middles))
+
+
+def to_picture(camera: Camera, pose: FloatArray) -> FloatArray:
+    """Turn poses in metres into poses in pixels, shape (..., 3)."""
+    return np.concatenate([camera.to_px(pose[..., :2]), pose[..., 2:]], axis=-1)
 
 
 @dataclass(frozen=True, eq=False)

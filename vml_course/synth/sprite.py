@@ -10,12 +10,15 @@ sharpness that one could measure.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from vml_course.model.arrays import FloatArray
 from vml_course.synth.canvas import Canvas
+from vml_course.synth.smear import add_warps
 from vml_course.synth.texture import Plane
 
 OVERSAMPLE = 4
@@ -42,12 +45,24 @@ class Planes:
         """Return planes of their own."""
         return Planes(self.luma.copy(), self.chroma.copy())
 
+    def part(self, box: Box) -> Planes:
+        """Return a box of the picture; it shares its samples."""
+        x0, y0, x1, y1 = box
+        return Planes(self.luma[y0:y1, x0:x1], self.chroma[y0 // 2 : y1 // 2, x0 // 2 : x1 // 2])
+
     def restore(self, source: Planes, box: Box) -> None:
         """Take a box (x0, y0, x1, y1; even numbers) back from another picture."""
         x0, y0, x1, y1 = box
         self.luma[y0:y1, x0:x1] = source.luma[y0:y1, x0:x1]
         half = slice(y0 // 2, y1 // 2), slice(x0 // 2, x1 // 2)
         self.chroma[half] = source.chroma[half]
+
+
+class Veil(NamedTuple):
+    """What lies over a box of a picture, in colour times opacity: a sprite's planes at the picture's scale."""
+
+    luma: Plane
+    chroma: Plane
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,22 +91,39 @@ class Sprite:
         Box
             What it may have changed: x0, y0, x1, y1, even numbers.
         """
-        matrix = self._from_picture(at_px, angle_rad)
-        box = self._box(matrix, on.luma.shape)
-        x0, y0, x1, y1 = box
-        if x1 > x0 and y1 > y0:
-            _over(on.luma[y0:y1, x0:x1, None], self.luma, _shifted(matrix, x0, y0))
-            half = on.chroma[y0 // 2 : y1 // 2, x0 // 2 : x1 // 2]
-            # A colour sample covers 2 x 2 pixels: its centre lies half a pixel right and down of the first.
-            _over(half, self.chroma, _halved(_shifted(matrix, x0 + 0.5, y0 + 0.5)))
+        box = self.box(at_px, angle_rad, on.luma.shape)
+        cover(on, self.seen(at_px, angle_rad, box), box)
         return box
 
-    def _from_picture(self, at_px: tuple[float, float], angle_rad: float) -> NDArray[np.float64]:
-        c, s = OVERSAMPLE * np.cos(angle_rad), OVERSAMPLE * np.sin(angle_rad)
-        turn = np.array([[c, -s], [s, c]])
-        return np.column_stack([turn, np.array(self.origin) - turn @ np.array(at_px)])
+    @property
+    def reach_px(self) -> float:
+        """How far the drawing's corners lie from the body's origin."""
+        (rows, columns), (x, y) = self.luma.shape[:2], self.origin
+        return float(np.hypot(max(x, columns - x), max(y, rows - y)) / OVERSAMPLE)
 
-    def _box(self, matrix: NDArray[np.float64], shape: tuple[int, ...]) -> Box:
+    def seen(self, at_px: tuple[float, float], angle_rad: float, box: Box) -> Veil:
+        """Return what lies over a box of the picture."""
+        (luma, chroma), (x0, y0, x1, y1) = self._from_box(at_px, angle_rad, box), box
+        return Veil(
+            _warp(self.luma, luma, (x1 - x0, y1 - y0)),
+            _warp(self.chroma, chroma, ((x1 - x0) // 2, (y1 - y0) // 2)),
+        )
+
+    def smeared(self, pose_px: FloatArray, box: Box) -> Veil:
+        """Return the mean of what lies over a box in several poses, shape (k, 3): px, px, rad."""
+        x0, y0, x1, y1 = box
+        matrices = np.array([self._from_box((x, y), turn, box) for x, y, turn in pose_px])
+        veil = Veil(
+            np.zeros((y1 - y0, x1 - x0, 2), np.float32), np.zeros(((y1 - y0) // 2, (x1 - x0) // 2, 3), np.float32)
+        )
+        for drawing, which, total in zip((self.luma, self.chroma), (0, 1), veil, strict=True):
+            add_warps(drawing, np.ascontiguousarray(matrices[:, which]), total)
+        count = np.float32(len(pose_px))
+        return Veil(veil.luma / count, veil.chroma / count)
+
+    def box(self, at_px: tuple[float, float], angle_rad: float, shape: tuple[int, ...]) -> Box:
+        """Return the part of a picture of some shape that the drawing may reach."""
+        matrix = self._from_picture(at_px, angle_rad)
         rows, columns = self.luma.shape[:2]
         corners = np.array([[0, 0], [columns, 0], [0, rows], [columns, rows]], dtype=np.float64)
         seen = np.linalg.solve(matrix[:, :2], (corners - matrix[:, 2]).T).T
@@ -99,6 +131,19 @@ class Sprite:
         high = np.ceil(seen.max(axis=0) / 2).astype(int) * 2 + 2
         (x0, y0), (x1, y1) = np.clip([low, high], 0, [shape[1], shape[0]]).tolist()
         return x0, y0, x1, y1
+
+    def _from_box(
+        self, at_px: tuple[float, float], angle_rad: float, box: Box
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return the ways from a box of the picture to the drawing, for brightness and for colour."""
+        matrix = self._from_picture(at_px, angle_rad)
+        # A colour sample covers 2 x 2 pixels: its centre lies half a pixel right and down of the first.
+        return _shifted(matrix, box[0], box[1]), _halved(_shifted(matrix, box[0] + 0.5, box[1] + 0.5))
+
+    def _from_picture(self, at_px: tuple[float, float], angle_rad: float) -> NDArray[np.float64]:
+        c, s = OVERSAMPLE * np.cos(angle_rad), OVERSAMPLE * np.sin(angle_rad)
+        turn = np.array([[c, -s], [s, c]])
+        return np.column_stack([turn, np.array(self.origin) - turn @ np.array(at_px)])
 
 
 def make_sprite(drawing: Canvas) -> Sprite:
@@ -125,11 +170,22 @@ def make_planes(drawing: Canvas) -> Planes:
     )
 
 
-def _over(region: Plane, sprite: Plane, matrix: NDArray[np.float64]) -> None:
-    rows, columns = region.shape[:2]
-    seen = cv2.warpAffine(sprite, matrix, (columns, rows), flags=cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP)
-    region *= 1.0 - seen[..., -1:]
-    region += seen[..., :-1]
+def cover(on: Planes, veil: Veil, box: Box) -> None:
+    """Lay a veil over a box of a picture."""
+    x0, y0, x1, y1 = box
+    _over(on.luma[y0:y1, x0:x1, None], veil.luma)
+    _over(on.chroma[y0 // 2 : y1 // 2, x0 // 2 : x1 // 2], veil.chroma)
+
+
+def _over(region: Plane, veil: Plane) -> None:
+    region *= 1.0 - veil[..., -1:]
+    region += veil[..., :-1]
+
+
+def _warp(drawing: Plane, matrix: NDArray[np.float64], size: tuple[int, int]) -> Plane:
+    if not size[0] or not size[1]:
+        return np.zeros((size[1], size[0], drawing.shape[2]), np.float32)
+    return np.asarray(cv2.warpAffine(drawing, matrix, size, flags=cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP))
 
 
 def _shifted(matrix: NDArray[np.float64], x: float, y: float) -> NDArray[np.float64]:

@@ -44,7 +44,7 @@ class Contact:
 
 @dataclass(frozen=True, eq=False)
 class Run:
-    """What a simulation gave: poses of the bodies in every frame, shape (n, b, 3), and the contact."""
+    """What a simulation gave: the logged poses of the bodies, shape (n, b, 3), and the contact."""
 
     pose: FloatArray
     contact: Contact | None
@@ -102,16 +102,16 @@ class _Recorder:
         return 1 if arbiter.shapes[0] is self.stage.head else -1
 
 
-def run_stage(stage: Stage, clock: Clock) -> Run:
-    """Step a stage through a clip and log the poses of its bodies in every frame."""
-    dt = clock.step_s
+def run_stage(stage: Stage, clock: Clock, log_every: int | None = None) -> Run:
+    """Step a stage through a clip and log the poses of its bodies in every frame, or every so many steps."""
+    dt, log_every = clock.step_s, log_every or clock.steps_per_frame
     recorder = _Recorder(stage, dt / 2)
     stage.space.on_collision(begin=recorder.begin, pre_solve=recorder.pre_solve, post_solve=recorder.post_solve)
     poses = [_poses(stage)]
     half_kick(stage, dt / 2, ball=False)
     for step in range(1, (clock.frame_count - 1) * clock.steps_per_frame + 1):
         _advance(stage, recorder, step, dt)
-        if step % clock.steps_per_frame == 0:
+        if step % log_every == 0:
             poses.append(_poses(stage))
     half_kick(stage, -dt / 2, ball=bool(recorder.first))
     contact = Contact(**recorder.first) if recorder.first else None

@@ -1,0 +1,109 @@
+"""What a camera sees while its shutter is open: the mean of the composited pictures of many instants.
+
+The instants lie in the middles of equal parts of the exposure, close enough together that nothing moves by
+more than `STEP_PX` from one to the next. A body is averaged as a veil (colour times opacity, and opacity),
+which gives the same mean as averaging pictures as long as what lies behind it stands still. Only where the
+boxes of two bodies meet are whole pictures averaged.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import combinations
+from typing import NamedTuple
+
+import numpy as np
+
+from vml_course.model.arrays import FloatArray
+from vml_course.synth.sprite import Box, Planes, Sprite, cover
+
+STEP_PX = 0.7
+FEWEST_INSTANTS, MOST_INSTANTS = 8, 400
+STILL_PX = 1e-4  # a body that moves less is at rest: one instant shows it
+
+
+class Swept(NamedTuple):
+    """A body during one exposure: its drawing, and where it is, shape (k, 3), px, px, rad, at k instants."""
+
+    sprite: Sprite
+    pose_px: FloatArray
+
+    @property
+    def is_still(self) -> bool:
+        """Whether one instant shows it."""
+        return bool((np.ptp(self.pose_px, axis=0) * (1.0, 1.0, self.sprite.reach_px) < STILL_PX).all())
+
+    def box(self, shape: tuple[int, ...]) -> Box:
+        """Return the part of the picture that the body may reach."""
+        return hull([self.sprite.box((x, y), turn, shape) for x, y, turn in self.pose_px])
+
+
+def count_instants(sprites: Sequence[Sprite], pose_px: FloatArray) -> int:
+    """Return how many instants an exposure needs.
+
+    Parameters
+    ----------
+    sprites : sequence of Sprite
+    pose_px : float array, shape (k, b, 3)
+        Where each body is at some times of the exposure: px, px, rad.
+    """
+    steps = np.abs(np.diff(pose_px, axis=0))
+    reach = np.array([sprite.reach_px for sprite in sprites])
+    longest = float((np.hypot(steps[..., 0], steps[..., 1]) + reach * steps[..., 2]).sum(axis=0).max())
+    if longest < STILL_PX:
+        return 1
+    return int(np.clip(np.ceil(longest / STEP_PX), FEWEST_INSTANTS, MOST_INSTANTS))
+
+
+def expose(on: Planes, bodies: Sequence[Swept]) -> list[Box]:
+    """Draw bodies that move during an exposure over a still picture; return the boxes that may have changed."""
+    boxes = [body.box(on.luma.shape) for body in bodies]
+    shared = [common for pair in combinations(boxes, 2) if not_empty(common := meet(*pair))]
+    behind = [on.part(box).copy() for box in shared]
+    for body, box in zip(bodies, boxes, strict=True):
+        _expose_one(on, body, box)
+    for box, still in zip(shared, behind, strict=True):
+        _expose_together(on.part(box), still, bodies, box)
+    return boxes
+
+
+def meet(one: Box, other: Box) -> Box:
+    """Return what two boxes have in common; it may be empty.
+
+    >>> meet((0, 0, 4, 4), (2, 2, 8, 8))
+    (2, 2, 4, 4)
+    """
+    return max(one[0], other[0]), max(one[1], other[1]), min(one[2], other[2]), min(one[3], other[3])
+
+
+def not_empty(box: Box) -> bool:
+    """Tell whether a box holds a pixel."""
+    return box[0] < box[2] and box[1] < box[3]
+
+
+def hull(boxes: Sequence[Box]) -> Box:
+    """Return the box around boxes."""
+    low, high = np.array(boxes)[:, :2].min(axis=0), np.array(boxes)[:, 2:].max(axis=0)
+    return int(low[0]), int(low[1]), int(high[0]), int(high[1])
+
+
+def _expose_one(on: Planes, body: Swept, box: Box) -> None:
+    if body.is_still:
+        x, y, turn = body.pose_px[0]
+        body.sprite.lay(on, (x, y), turn)
+    elif not_empty(box):
+        cover(on, body.sprite.smeared(body.pose_px, box), box)
+
+
+def _expose_together(on: Planes, still: Planes, bodies: Sequence[Swept], box: Box) -> None:
+    """Average whole pictures of the box, where bodies hide one another."""
+    total, sheet = Planes(np.zeros_like(still.luma), np.zeros_like(still.chroma)), still.copy()
+    count = len(bodies[0].pose_px)
+    for instant in range(count):
+        sheet.luma[...], sheet.chroma[...] = still.luma, still.chroma
+        for body in bodies:
+            x, y, turn = body.pose_px[instant]
+            body.sprite.lay(sheet, (x - box[0], y - box[1]), turn)
+        total.luma[...] += sheet.luma
+        total.chroma[...] += sheet.chroma
+    on.luma[...], on.chroma[...] = total.luma / np.float32(count), total.chroma / np.float32(count)
