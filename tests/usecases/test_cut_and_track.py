@@ -191,8 +191,8 @@ def test_progress_counts_every_picture(video: Path) -> None:
 def test_the_estimate_is_for_all_frames_of_the_request(video: Path) -> None:
     found = estimate_track(request(video, start=2, step=2))
     assert (found.frames, found.points) == (11, 2)
-    assert found.seconds == pytest.approx(11 * found.seconds_per_frame)
-    assert found.seconds > 0
+    assert found.seconds_per_frame > 0
+    assert found.seconds > 10 * found.seconds_per_frame  # and what opening the file takes, once
 
 
 def test_all_files_are_written_and_wrong_names_are_found_first(video: Path, tmp_path: Path) -> None:
