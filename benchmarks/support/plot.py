@@ -8,8 +8,9 @@ from math import floor, isfinite, log10
 FONT = 'font-family="Helvetica, Arial, sans-serif" font-size="12" fill="#222"'
 COLOURS = ("#0b6e99", "#d1495b", "#5b8c3a", "#8a5fb0")
 SHAPES = ("circle", "square", "diamond", "triangle")
-PANEL, LEFT, TOP, ROW, GAP = 190, 190, 66, 30, 22
+PANEL, LEFT, TOP, ROW, GAP = 190, 190, 66, 30, 46
 LOW, HIGH = 1e-3, 10.0
+MOSTLY = 0.5  # share of pictures in which a point must be found to have an error worth showing
 
 
 def chart(title: str, cases: list[str], methods: list[str], points: list[str], values: dict) -> str:
@@ -32,7 +33,7 @@ def chart(title: str, cases: list[str], methods: list[str], points: list[str], v
     for column, case in enumerate(cases):
         parts += _panel(LEFT + column * (PANEL + GAP), case, methods, points, values)
     parts.append(f'<text x="{LEFT}" y="{height - 10}" fill="#555">RMS distance from the truth, px (logarithmic). '
-                 "Hollow: lost in some pictures. At the right rim, crossed: never found again.</text>")  # fmt: skip
+                 "Hollow: lost in some pictures. Cross at the right rim: lost in most.</text>")  # fmt: skip
     return "\n".join([*parts, "</svg>", ""])
 
 
@@ -64,7 +65,7 @@ def _panel(x0, case, methods, points, values):
             error, lost, count = values[case, method, point]
             y = TOP + (row + 0.5) * ROW + (k - 1.5) * 5.5
             share = 1.0 - lost / count
-            yield _mark(x0 + (_across(error) if isfinite(error) and share > 0.05 else PANEL), y, k, share)
+            yield _mark(x0 + (_across(error) if isfinite(error) and share > MOSTLY else PANEL), y, k, share)
 
 
 def _across(value):
@@ -73,9 +74,9 @@ def _across(value):
 
 
 def _mark(x, y, k, share):
-    """Full when always found, hollow when sometimes lost, a cross when hardly ever found."""
+    """Full when always found, hollow when sometimes lost, a cross when lost in most pictures."""
     colour = COLOURS[k % 4]
-    if share <= 0.05:
+    if share <= MOSTLY:
         return f'<path d="M{x - 3.5:.1f} {y - 3.5:.1f}l7 7m0 -7l-7 7" stroke="{colour}" stroke-width="1.5"/>'
     look = f'fill="{colour if share == 1.0 else "#fff"}" stroke="{colour}" stroke-width="1.4"'
     shape = SHAPES[k % 4]
