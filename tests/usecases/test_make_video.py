@@ -57,3 +57,30 @@ def test_a_refused_scene_leaves_no_folder(tmp_path):
     with pytest.raises(SceneRefusedError):
         make(tmp_path / "new", "time_after_s=0.04", "omega1=50")
     assert not (tmp_path / "new").exists()
+
+
+def test_a_clip_of_another_format_takes_the_older_ones_place(tmp_path):
+    make(tmp_path, "format=mp4")
+    make(tmp_path, "format=avi")
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["truth.csv", "truth.json", "video.avi"]
+
+
+def test_a_refused_clip_leaves_the_older_one(tmp_path):
+    make(tmp_path, "format=mp4")
+    with pytest.raises(SceneRefusedError):
+        make(tmp_path, "format=avi", "time_after_s=0.04", "omega1=50")
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["truth.csv", "truth.json", "video.mp4"]
+
+
+def test_the_file_may_claim_another_rate_while_the_truth_keeps_its_own(tmp_path):
+    video, _ = make(tmp_path, "file_fps=30")
+    assert probe(video.video).fps == pytest.approx(30)
+    assert video.truth.time_s[1] == pytest.approx(1 / 240)
+
+
+def test_the_truth_file_alone_is_enough_to_make_the_pictures_again(tmp_path):
+    video, made = make(tmp_path, "shutter=0.5", "contrast=0.5", "brightness_drift=0.2", "noise_grey=2")
+    truth = read_truth_json(tmp_path / "truth.json")
+    assert truth.recording == made.recording
+    pairs = zip(render(truth, truth.recording), render(video.truth, made.recording), strict=True)
+    assert all(np.array_equal(again.luma, first.luma) for again, first in pairs)

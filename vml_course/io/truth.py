@@ -15,6 +15,7 @@ from vml_course.errors import TableError
 from vml_course.io.files import existing, replacing
 from vml_course.model.arrays import FloatArray
 from vml_course.model.camera import Camera
+from vml_course.model.recording import Recording
 from vml_course.model.truth import Check, ImpactTruth, Truth
 
 FORMAT = "vml-truth 1"
@@ -86,6 +87,8 @@ def _truth(document: dict[str, Any]) -> Truth:
     if document.pop("format") != FORMAT:
         raise ValueError("another format")
     document["camera"] = Camera(**document["camera"])
+    if document.get("recording"):  # truths of clips that were never stored have none
+        document["recording"] = Recording(**document["recording"])
     document["impact"] = ImpactTruth(**document["impact"])
     document["checks"] = tuple(Check(**check) for check in document["checks"])
     document["marks_m"] = {name: tuple(place) for name, place in document["marks_m"].items()}
@@ -97,7 +100,7 @@ def _truth(document: dict[str, Any]) -> Truth:
 def _plain(value: Any) -> Any:
     if isinstance(value, np.ndarray):
         return value.tolist()
-    if isinstance(value, Camera):
+    if isinstance(value, Camera | Recording):
         return asdict(value)
     if isinstance(value, tuple):
         return [asdict(item) if isinstance(item, Check) else item for item in value]

@@ -10,6 +10,7 @@ import numpy as np
 from vml_course.errors import UnknownNameError
 from vml_course.model.arrays import Axes, FloatArray, set_frozen
 from vml_course.model.camera import Camera
+from vml_course.model.recording import Recording
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,6 +114,8 @@ class Truth:
     given : mapping of str to float
         What the solver is told, by symbol, SI units (`m`, `L`, ...).
     seed : int
+    recording : Recording or None
+        How the clip was stored, once it was; with it, the truth is enough to make every picture again.
     """
 
     scene: str
@@ -131,6 +134,7 @@ class Truth:
     model: str
     given: Mapping[str, float]
     seed: int
+    recording: Recording | None = None
 
     def __post_init__(self) -> None:
         axes = Axes()

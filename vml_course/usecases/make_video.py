@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from vml_course.io.truth import write_truth_csv, write_truth_json
 from vml_course.io.video import write_video
 from vml_course.model.camera import Camera
 from vml_course.model.frame import Picture
-from vml_course.model.recording import Recording
+from vml_course.model.recording import FORMATS, Recording
 from vml_course.model.truth import Truth
 from vml_course.synth.render import render
 from vml_course.synth.scene import Scene
@@ -30,7 +30,7 @@ class MadeVideo:
 def make_video(
     scene: Scene, camera: Camera, recording: Recording, seed: int, folder: Path, progress: Progress | None = None
 ) -> MadeVideo:
-    """Write `video.mp4` (or `.avi`), `truth.json` and `truth.csv` into a folder.
+    """Write `video.mp4` (or `.avi`), `truth.json` and `truth.csv` into a folder, in place of an older clip there.
 
     The video itself holds nothing of the truth, neither in its name nor in its metadata.
 
@@ -50,14 +50,22 @@ def make_video(
     SceneRefusedError
         Before anything is written.
     """
-    truth = simulate(scene, camera, seed)
+    truth = replace(simulate(scene, camera, seed), recording=recording)
     folder.mkdir(parents=True, exist_ok=True)
     video = folder / f"video.{recording.format}"
     pictures = _counted(render(truth, recording), len(truth.time_s), progress)
-    write_video(video, pictures, camera.fps, int(recording.crf))
+    write_video(video, pictures, recording.file_fps or camera.fps, int(recording.crf))
     write_truth_json(folder / "truth.json", truth)
     write_truth_csv(folder / "truth.csv", truth)
+    _remove_older(folder, recording.format)
     return MadeVideo(video, truth)
+
+
+def _remove_older(folder: Path, kept: str) -> None:
+    """Remove a video of another format, which the new truth does not belong to."""
+    for other in FORMATS:
+        if other != kept:
+            (folder / f"video.{other}").unlink(missing_ok=True)
 
 
 def _counted(pictures: Iterator[Picture], total: int, progress: Progress | None) -> Iterator[Picture]:
