@@ -84,7 +84,7 @@ def test_bodies_that_hide_one_another_are_averaged_as_whole_pictures():
 def test_instants_are_closer_together_than_a_pixel(fps, shutter):
     truth = simulate(SoccerKick(), camera(fps, shutter), 1)
     look = scene_of(truth).look(truth.camera, truth.seed)
-    for pose_px in exposures(truth, [look.sprites[body] for body in truth.bodies]):
+    for pose_px, _ in exposures(truth, [look.sprites[body] for body in truth.bodies]):
         assert len(pose_px) >= FEWEST_INSTANTS
         assert np.hypot(*np.diff(pose_px[:, 1, :2], axis=0).T).max() < STEP_PX
 
@@ -106,7 +106,7 @@ def test_the_path_passes_through_the_frames_and_turns_sharply_at_the_impact():
 def test_an_exposure_with_the_impact_shows_the_ball_at_rest_and_in_flight():
     truth = simulate(SoccerKick(impact_phase=0.37), camera(240, 0.9), 1)
     look = scene_of(truth).look(truth.camera, truth.seed)
-    poses = list(exposures(truth, [look.sprites[body] for body in truth.bodies]))
+    poses = [pose for pose, _ in exposures(truth, [look.sprites[body] for body in truth.bodies])]
     middle, impact = truth.impact.frame_before, truth.impact.time_s
     x = poses[middle][:, 1, 0]
     resting = int(np.sum(x < x[0] + 1e-6))
@@ -121,7 +121,7 @@ def test_the_centre_of_a_blurred_ball_is_the_truth():
     centres = []
     for truth in (sharp, blurred):
         look = scene_of(truth).look(truth.camera, truth.seed)
-        ball, pose = look.sprites["ball"], list(exposures(truth, [look.sprites["leg"], look.sprites["ball"]]))[frame]
+        ball, pose = look.sprites["ball"], list(exposures(truth, [look.sprites["leg"], look.sprites["ball"]]))[frame][0]
         planes = Planes(np.zeros((720, 1280), np.float32), np.zeros((360, 640, 2), np.float32))
         expose(planes, [Swept(ball, pose[:, 1])])
         light = planes.luma.astype(np.float64)

@@ -26,6 +26,7 @@ class Camera:
     origin_x_px: float = quantity(420.0, "px", -4000.0, 8000.0, about="where the world's origin is seen")
     origin_y_px: float = quantity(200.0, "px", -4000.0, 8000.0, about="where the world's origin is seen")
     shutter: float = quantity(0.0, "", 0.0, 1.0, about="exposure as a part of the frame interval; 0 is a flash")
+    shake_px: float = quantity(0.0, "px", 0.0, 10.0, about="how far a hand lets the picture wander")
 
     def __post_init__(self) -> None:
         check_quantities(self)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -116,6 +116,8 @@ class Truth:
     seed : int
     recording : Recording or None
         How the clip was stored, once it was; with it, the truth is enough to make every picture again.
+    offset_px : float array, shape (n, 2)
+        How far each frame is shifted by a camera that is held by hand; nothing in frame 0.
     """
 
     scene: str
@@ -135,21 +137,29 @@ class Truth:
     given: Mapping[str, float]
     seed: int
     recording: Recording | None = None
+    offset_px: FloatArray = field(default_factory=lambda: np.zeros((0, 2)))
 
     def __post_init__(self) -> None:
         axes = Axes()
+        offset_px = self.offset_px if len(self.offset_px) else np.zeros((len(self.time_s), 2))
         set_frozen(
             self,
             time_s=axes.freeze("time_s", self.time_s, "n"),
             pose=axes.freeze("pose", self.pose, "n", len(self.bodies), 3),
             xy_m=axes.freeze("xy_m", self.xy_m, "n", len(self.points), 2),
             leg_angle_rad=axes.freeze("leg_angle_rad", self.leg_angle_rad, "n"),
+            offset_px=axes.freeze("offset_px", offset_px, "n", 2),
         )
 
     @property
     def xy_px(self) -> FloatArray:
         """Where the tracked points are seen: shape (n, p, 2), pixels, y down."""
-        return self.camera.to_px(self.xy_m)
+        return self.camera.to_px(self.xy_m) + self.offset_px[:, None]
+
+    def mark_px(self, name: str, frame: int = 0) -> tuple[float, float]:
+        """Return where a still mark is seen in one frame, in pixels."""
+        x, y = self.camera.to_px(np.array(self.marks_m[name])) + self.offset_px[frame]
+        return float(x), float(y)
 
     def point_index(self, name: str) -> int:
         """Return the column of a tracked point.

@@ -15,6 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from vml_course.model.arrays import FloatArray
+from vml_course.synth.shake import shifted
 from vml_course.synth.sprite import Box, Planes, Sprite, cover
 
 STEP_PX = 0.7
@@ -67,6 +68,27 @@ def expose(on: Planes, bodies: Sequence[Swept]) -> list[Box]:
     return boxes
 
 
+def expose_shaken(still: Planes, bodies: Sequence[Swept], offset_px: FloatArray) -> Planes:
+    """Return the picture of an exposure during which the camera itself moves: whole pictures are averaged.
+
+    Parameters
+    ----------
+    still : Planes
+        What stands still, as an unmoved camera sees it.
+    bodies : sequence of Swept
+    offset_px : float array, shape (k, 2)
+        How far the picture is shifted at each instant.
+    """
+    total = Planes(np.zeros_like(still.luma), np.zeros_like(still.chroma))
+    for instant, offset in enumerate(offset_px):
+        sheet = shifted(still, offset)
+        _lay_all(sheet, bodies, instant, (0, 0))
+        total.luma[...] += sheet.luma
+        total.chroma[...] += sheet.chroma
+    count = np.float32(len(offset_px))
+    return Planes(total.luma / count, total.chroma / count)
+
+
 def meet(one: Box, other: Box) -> Box:
     """Return what two boxes have in common; it may be empty.
 
@@ -101,9 +123,13 @@ def _expose_together(on: Planes, still: Planes, bodies: Sequence[Swept], box: Bo
     count = len(bodies[0].pose_px)
     for instant in range(count):
         sheet.luma[...], sheet.chroma[...] = still.luma, still.chroma
-        for body in bodies:
-            x, y, turn = body.pose_px[instant]
-            body.sprite.lay(sheet, (x - box[0], y - box[1]), turn)
+        _lay_all(sheet, bodies, instant, (box[0], box[1]))
         total.luma[...] += sheet.luma
         total.chroma[...] += sheet.chroma
     on.luma[...], on.chroma[...] = total.luma / np.float32(count), total.chroma / np.float32(count)
+
+
+def _lay_all(sheet: Planes, bodies: Sequence[Swept], instant: int, corner: tuple[int, int]) -> None:
+    for body in bodies:
+        x, y, turn = body.pose_px[instant]
+        body.sprite.lay(sheet, (x - corner[0], y - corner[1]), turn)

@@ -116,9 +116,10 @@ def _kinetic(strike: PinnedStrike, omega: float, ball: tuple[float, float]) -> f
 
 
 def _outside_px(scene: Scene, camera: Camera, pose: FloatArray) -> float:
-    seen = camera.to_px(place(scene, pose))
+    seen, sway = camera.to_px(place(scene, pose)), 3.0 * camera.shake_px
     return max(
-        _beyond_px(camera, seen[:, k], marker.outline_m * camera.px_per_m) for k, marker in enumerate(scene.markers())
+        _beyond_px(camera, seen[:, k], marker.outline_m * camera.px_per_m + sway)
+        for k, marker in enumerate(scene.markers())
     )
 
 

@@ -11,10 +11,11 @@ from vml_course.model.camera import Camera
 from vml_course.model.frame import Picture
 from vml_course.model.recording import Recording
 from vml_course.model.truth import Truth
-from vml_course.synth.exposure import Swept, count_instants, expose
+from vml_course.synth.exposure import Swept, count_instants, expose, expose_shaken
 from vml_course.synth.path import fine_path
 from vml_course.synth.scene import Scene, scene_class
 from vml_course.synth.sensor import make_sensor
+from vml_course.synth.shake import wander
 from vml_course.synth.sprite import Planes, Sprite, make_planes
 
 
@@ -36,26 +37,43 @@ def draw_frames(truth: Truth) -> Iterator[Planes]:
     sprites = [look.sprites[body] for body in truth.bodies]
     still = make_planes(look.background)
     planes = still.copy()
-    for pose_px in exposures(truth, sprites):
-        changed = expose(planes, [Swept(sprite, pose_px[:, k]) for k, sprite in enumerate(sprites)])
+    for pose_px, offset_px in exposures(truth, sprites):
+        bodies = [Swept(sprite, pose_px[:, k]) for k, sprite in enumerate(sprites)]
+        if truth.camera.shake_px:
+            yield expose_shaken(still, bodies, offset_px)
+            continue
+        changed = expose(planes, bodies)
         yield planes
         for box in changed:
             planes.restore(still, box)
 
 
-def exposures(truth: Truth, sprites: Sequence[Sprite]) -> Iterator[FloatArray]:
-    """Yield where the bodies are while each frame is exposed: shape (k, b, 3), px, px, rad, at k instants."""
+def exposures(truth: Truth, sprites: Sequence[Sprite]) -> Iterator[tuple[FloatArray, FloatArray]]:
+    """Yield what each exposure sees at its k instants.
+
+    Returns
+    -------
+    float array, shape (k, b, 3)
+        Where the bodies are: px, px, rad.
+    float array, shape (k, 2)
+        How far the picture is shifted.
+    """
     if not truth.camera.shutter:
-        yield from to_picture(truth.camera, truth.pose[:, None])
+        offset_px = truth.offset_px[:, None]
+        yield from zip(to_picture(truth.camera, truth.pose[:, None], offset_px), offset_px, strict=True)
         return
     path = fine_path(scene_of(truth), truth.camera.fps)
+
+    def seen(time_s: FloatArray) -> tuple[FloatArray, FloatArray]:
+        offset_px = wander(truth.seed, truth.camera.shake_px, time_s)
+        return to_picture(truth.camera, path.at(time_s), offset_px), offset_px
+
     for time_s in truth.time_s:
-        rough = to_picture(truth.camera, path.at(time_s + truth.camera.exposure_s * np.linspace(-0.5, 0.5, 17)))
+        rough, _ = seen(time_s + truth.camera.exposure_s * np.linspace(-0.5, 0.5, 17))
         count = count_instants(sprites, rough)
-        middles = (np.arange(count) + 0.5) / count - 0.5
-        yield to_picture(truth.camera, path.at(time_s + truth.camera.exposure_s * middles))
+        yield seen(time_s + truth.camera.exposure_s * ((np.arange(count) + 0.5) / count - 0.5))
 
 
-def to_picture(camera: Camera, pose: FloatArray) -> FloatArray:
-    """Turn poses in metres into poses in pixels, shape (..., 3)."""
-    return np.concatenate([camera.to_px(pose[..., :2]), pose[..., 2:]], axis=-1)
+def to_picture(camera: Camera, pose: FloatArray, offset_px: FloatArray) -> FloatArray:
+    """Turn poses in metres into poses in pixels: shape (..., b, 3), with a shift of shape (..., 2)."""
+    return np.concatenate([camera.to_px(pose[..., :2]) + offset_px[..., None, :], pose[..., 2:]], axis=-1)

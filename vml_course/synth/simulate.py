@@ -17,6 +17,7 @@ from vml_course.synth.clock import Clock
 from vml_course.synth.closed_form import pair_mass
 from vml_course.synth.honesty import contact_checks, energy_checks, frame_checks, impact_checks, place
 from vml_course.synth.scene import Scene
+from vml_course.synth.shake import wander
 from vml_course.synth.stepping import Contact, Run, run_stage
 
 
@@ -129,4 +130,5 @@ def _truth(scene: Scene, camera: Camera, seed: int, found: tuple[Clock, Run, Imp
         model=scene.model,
         given=scene.given(),
         seed=seed,
+        offset_px=wander(seed, camera.shake_px, clock.frame_s),
     )
