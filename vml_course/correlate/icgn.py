@@ -11,7 +11,8 @@ the larger of two estimates of the variance of sum(K e):
     by lags    1/gain**2 * sum over lags up to 2 px of C(lag) * sum over i of K(i) K(i + lag)
     by tiles   1/gain**2 * G/(G - 3) * sum over G tiles of about 15 px of (sum over the tile of K e)**2
 
-C is the covariance of e measured in the block. The first is sharp for white noise, interpolated or not
+C is the covariance of e measured in the block; e is multiplied, and K divided, by the root of the weights, which makes
+its variance everywhere the same. The first is sharp for white noise, interpolated or not
 (Conley, J. Econometrics 92 (1999) 1, eq. 4.1, with stationary residuals; at lag 0 it is the usual s**2 H^-1). The
 second sees what a codec does: it moves its macroblocks by fractions of a pixel, each its own way, which looks
 like white noise pixel by pixel but not in the products K e (Liang, Zeger, Biometrika 73 (1986) 13, eq. 8). e
@@ -65,6 +66,9 @@ class Match(NamedTuple):
         Standard deviation of a coordinate of the centre (root mean square of x and y).
     gain, residual_grey : float
         Contrast against the block, and the residual's standard deviation.
+    residual : float32 array, shape (n, m)
+        What is left of the picture under the block, grey levels times the root of the weight; meaningful when
+        converged.
     """
 
     pose: FloatArray
@@ -74,6 +78,7 @@ class Match(NamedTuple):
     sigma_px: float
     gain: float
     residual_grey: float
+    residual: NDArray[np.float32]
 
 
 def match(
@@ -102,9 +107,10 @@ def match(
     """
     report = np.full(5, np.nan)
     pose = np.array(start, dtype=np.float64)
-    outcome = iterate(image, template, pose, np.array([max_iterations, tolerance_px, max_shift_px]), report)
-    iterations, zncc, sigma, gain, residual = report.tolist()
-    return Match(pose, Outcome(outcome), int(iterations), zncc, sigma, gain, residual)
+    residual = np.empty(template.values.shape, np.float32)
+    outcome = iterate(image, template, pose, np.array([max_iterations, tolerance_px, max_shift_px]), report, residual)
+    iterations, zncc, sigma, gain, spread = report.tolist()
+    return Match(pose, Outcome(outcome), int(iterations), zncc, sigma, gain, spread, residual)
 
 
 @njit(fastmath=True, **KERNEL)
@@ -306,7 +312,8 @@ def judge(template, sampled, sums, pose, report):  # type: ignore[no-untyped-def
     gain = sums[2] / template.energy
     for i in range(n):
         for j in range(m):
-            sampled[i, j] = template.weight[i, j] * (sampled[i, j] - f4(mean) - f4(gain) * template.values[i, j])
+            e = sampled[i, j] - f4(mean) - f4(gain) * template.values[i, j]
+            sampled[i, j] = np.sqrt(template.weight[i, j]) * e
     lags, tiles = np.zeros(3), np.zeros(3)
     spread_left = variance_by_lags(template, sampled, lags) * n * m / max(template.total - 8.0, 1.0)
     variance_by_tiles(template, sampled, tiles)
@@ -320,14 +327,13 @@ def judge(template, sampled, sums, pose, report):  # type: ignore[no-untyped-def
 
 
 @njit(**KERNEL)
-def iterate(image, template, pose, limits, report):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN201
+def iterate(image, template, pose, limits, report, sampled):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN201
     """Run the iterations from `pose`, which is replaced; return the outcome and fill the report.
 
-    report: iterations, ZNCC, sigma, gain, residual.
+    report: iterations, ZNCC, sigma, gain, residual's standard deviation; sampled: receives the residual.
     """
-    n, m = template.values.shape
     start = pose.copy()
-    sampled, sums, step, local = np.empty((n, m), np.float32), np.empty(9), np.empty(6), pose.copy()
+    sums, step, local = np.empty(9), np.empty(6), pose.copy()
     crop, x0, y0 = np.empty((0, 0), np.float32), 0, 0
     last, share = np.zeros(6), 1.0
     outcome, before = 1, 0.0

@@ -54,7 +54,7 @@ class Template(NamedTuple):
     solve : float array, shape (6, 6)
         From their products with a picture to the parameters, within the allowed warp.
     influence : float32 array, shape (2, n, m)
-        What one grey level at a pixel adds to u and to v, at gain 1.
+        What one grey level at a pixel adds to u and to v, at gain 1, over the root of its weight.
     pairs : float array, shape (lags, 3)
         Sums of products of the influences (uu, uv, vv) over pairs of pixels, by lag.
     taps : float32 array
@@ -164,7 +164,7 @@ def build_template(
     descent = _orthogonal(steepest_descent(patch), values, w, energy)
     solve = solving_matrix(normal_matrix(descent, w), warp)
     weighted = descent * w
-    influence = np.tensordot(solve[:2], weighted, 1)
+    influence = np.tensordot(solve[:2], descent * np.sqrt(w), 1)
     return Template(
         read_only(values.astype(np.float32)),
         read_only(w),

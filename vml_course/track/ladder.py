@@ -9,84 +9,25 @@ is looked for again in the following pictures, in a region that grows, always wi
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
-from typing import NamedTuple
+from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
-from vml_course.correlate.icgn import Match, Outcome, match
+from vml_course.correlate.icgn import Match, Outcome
 from vml_course.correlate.search import search
-from vml_course.correlate.template import Template
 from vml_course.model.arrays import FloatArray
 from vml_course.model.frame import Luma
+from vml_course.track.near import find_near
 from vml_course.track.prediction import predict
+from vml_course.track.records import Guess, Past, Reference, Rules
 
 ANGLES_RAD = np.radians([0.0, -10.0, 10.0, -20.0, 20.0, -30.0, 30.0])
 USUAL_DROP = 0.15  # of ZNCC below its usual value, before another place is tried as well
 MEMORY = 0.7  # share of the past in the usual ZNCC
 DETERMINANT = (0.6, 1.6)  # change of area that a rigid thing in perspective can show
 REFINED = 3  # candidates of a search that are worth refining
+JUMP_PX = 1.0  # off the expected place: the motion has changed
 PULL_IN_PX = 12.0  # a candidate that moves further was another place
-
-
-class Rules(NamedTuple):
-    """When a match counts."""
-
-    search_radius_px: float
-    zncc_lost: float
-    zncc_far: float
-    max_iterations: int
-    give_up_frames: int
-
-
-@dataclass(frozen=True, eq=False)
-class Reference:
-    """A point's block in the first picture.
-
-    Attributes
-    ----------
-    template : Template
-    block : float32 array, shape (n, m)
-        Its grey levels.
-    sigma_px : float
-        Standard deviation of a coordinate that the block's noise leads one to expect.
-    """
-
-    template: Template
-    block: NDArray[np.float32]
-    sigma_px: float
-
-
-@dataclass(frozen=True, eq=False)
-class Past:
-    """What is remembered of a point.
-
-    Attributes
-    ----------
-    poses : tuple of float arrays, shape (6,)
-        The newest first, at most three, of consecutive pictures.
-    steady : int
-        Pictures in a row in which it was where it was expected.
-    lost : int
-        Pictures since it was last seen.
-    usual_zncc : float
-    """
-
-    poses: tuple[FloatArray, ...]
-    steady: int = 0
-    lost: int = 0
-    usual_zncc: float = 1.0
-
-
-class Guess(NamedTuple):
-    """A pose to refine, how far it may pull, and what makes its match acceptable."""
-
-    pose: FloatArray
-    pull_px: float
-    radius_px: float
-    least_zncc: float
-    rung: int
 
 
 def follow(reference: Reference, past: Past, luma: Luma, rules: Rules) -> tuple[Past, Match | None]:
@@ -94,20 +35,17 @@ def follow(reference: Reference, past: Past, luma: Luma, rules: Rules) -> tuple[
     if past.lost >= rules.give_up_frames:
         return past, None
     expected = predict(past.poses, past.steady, past.lost + 1)
-    best, rung = None, 0
+    best, rung, own = None, 0, past.own_smear_px
     for guess in guesses(reference, past, expected, luma, rules):
-        found = match(
-            luma,
-            reference.template,
-            guess.pose,
-            max_iterations=rules.max_iterations,
-            max_shift_px=guess.pull_px,
-        )
+        found, own_smear = find_near(reference, past, luma, rules, guess)
         if is_acceptable(found, expected, guess) and (best is None or found.zncc > best.zncc):
-            best, rung = found, guess.rung
+            best, rung, own = found, guess.rung, own_smear
         if best is not None and best.zncc >= past.usual_zncc - USUAL_DROP:
             break
-    return (_lost(past), None) if best is None else (_found(past, best, is_expected=rung == 1), best)
+    if best is None:
+        return _lost(past), None
+    is_expected = rung == 1 and float(np.abs(best.pose - expected)[:2].max()) <= JUMP_PX
+    return replace(_found(past, best, is_expected=is_expected), own_smear_px=own), best
 
 
 def guesses(reference: Reference, past: Past, expected: FloatArray, luma: Luma, rules: Rules) -> Iterator[Guess]:
@@ -155,4 +93,6 @@ def _found(past: Past, found: Match, *, is_expected: bool) -> Past:
         mean_move = (found.pose[:2] - before[0][:2]) / gap
         before = (np.concatenate([found.pose[:2] - mean_move, found.pose[2:]]),)
     usual = MEMORY * past.usual_zncc + (1.0 - MEMORY) * found.zncc
-    return Past((found.pose, *before)[:3], past.steady + 1 if is_expected else 0, 0, usual)
+    return replace(
+        past, poses=(found.pose, *before)[:3], steady=past.steady + 1 if is_expected else 0, lost=0, usual_zncc=usual
+    )

@@ -8,6 +8,7 @@ from typing import ClassVar, final
 
 import numpy as np
 
+from vml_course.correlate.exposure import cut_surroundings
 from vml_course.correlate.icgn import Match
 from vml_course.correlate.template import (
     WARPS,
@@ -24,7 +25,10 @@ from vml_course.model.arrays import FloatArray
 from vml_course.model.frame import Luma
 from vml_course.model.quantity import check_quantities, quantity
 from vml_course.model.track import Sighting, Status
-from vml_course.track.ladder import Past, Reference, Rules, follow
+from vml_course.track.blur import Sharp
+from vml_course.track.ladder import follow
+from vml_course.track.learning import learn
+from vml_course.track.records import Past, Reference, Rules
 
 LARGEST_CORNER_SIGMA_PX = 0.25  # beyond this a freedom of the warp is noise: take the next smaller warp
 UPRIGHT = np.array([1.0, 0.0, 0.0, 1.0])
@@ -32,7 +36,7 @@ UPRIGHT = np.array([1.0, 0.0, 0.0, 1.0])
 
 @dataclass(frozen=True, eq=False)
 class DicState:
-    """What `Dic` remembers: the reference blocks, which never change, and each point's past."""
+    """What `Dic` remembers: the reference blocks, with what was learned of their pixels, and each point's past."""
 
     references: tuple[Reference, ...]
     pasts: tuple[Past, ...]
@@ -63,6 +67,9 @@ class Dic:
         15, "", 1, 100000, about="pictures after which a lost point stays lost", whole=True
     )
     blur: float = quantity(0.0, "px", 0.0, 3.0, about="Gaussian blur of both pictures before matching")
+    shutter: float = quantity(
+        0.0, "", 0.0, 1.0, about="share of the frame interval that the shutter is open; 0 leaves motion blur alone"
+    )
 
     def __post_init__(self) -> None:
         check_quantities(self)
@@ -89,14 +96,22 @@ class Dic:
         """Find the points in the next picture."""
         picture = read_only(luma)
         rules = Rules(
-            self.search_radius, self.zncc_lost, self.zncc_far, int(self.max_iterations), int(self.give_up_frames)
+            self.search_radius,
+            self.zncc_lost,
+            self.zncc_far,
+            int(self.max_iterations),
+            int(self.give_up_frames),
+            self.shutter,
         )
         followed = [
             follow(reference, past, picture, rules)
             for reference, past in zip(state.references, state.pasts, strict=True)
         ]
-        pasts, matches = zip(*followed, strict=True) if followed else ((), ())
-        return DicState(state.references, tuple(pasts)), _sighting(matches)
+        learned = [
+            learn(reference, past, found) for reference, (past, found) in zip(state.references, followed, strict=True)
+        ]
+        references, pasts = zip(*learned, strict=True) if learned else ((), ())
+        return DicState(tuple(references), tuple(pasts)), _sighting(tuple(found for _, found in followed))
 
     def _learn(self, luma: Luma, name: str, x: float, y: float) -> Reference:
         size = int(self.block)
@@ -105,9 +120,11 @@ class Dic:
         _check_texture(patch.values, name, (x, y))
         noise = noise_grey(patch.values)
         hessian = significant_hessian(patch, noise, self.blur)
-        template = build_template(patch, choose_warp(hessian, noise, 0.5 * (size - 1)), blur_px=self.blur)
+        warp = choose_warp(hessian, noise, 0.5 * (size - 1))
+        template = build_template(patch, warp, blur_px=self.blur)
+        sharp = Sharp(cut_surroundings(luma, (x, y), size, self.blur), size, warp, self.blur, None)
         sigma = np.sqrt(np.trace(template.solve[:2, :2])) * noise  # sqrt(2): both pictures are noisy; rms of x and y
-        return Reference(template, patch.values.astype(np.float32), float(sigma))
+        return Reference(template, patch.values.astype(np.float32), float(sigma), sharp)
 
 
 METHOD = Dic
