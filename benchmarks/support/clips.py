@@ -9,6 +9,7 @@ from pathlib import Path
 import av
 import numpy as np
 
+from vml_course.errors import VmlError
 from vml_course.io.truth import read_truth_json
 from vml_course.io.video import read_frames, write_video
 from vml_course.model.quantity import quantities_of
@@ -69,9 +70,11 @@ def make_clip(case: Case, folder: Path, seed: int = 1) -> Clip | None:
     camera = dataclasses.replace(kind.default_camera, **case.camera)
     recording, place = Recording(**case.recording), folder / f"{case.name}-{seed}"
     video = place / f"video.{recording.format}"
-    if not (place / "truth.json").exists():
-        make_video(kind(**case.scene), camera, recording, seed, place)
-    return Clip(case, video, read_truth_json(place / "truth.json"))
+    try:
+        truth = read_truth_json(place / "truth.json")
+    except VmlError:  # not there, or kept by another version
+        truth = make_video(kind(**case.scene), camera, recording, seed, place).truth
+    return Clip(case, video, truth)
 
 
 def to_and_fro(count: int, length: int) -> list[int]:
