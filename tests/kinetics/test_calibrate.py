@@ -17,7 +17,7 @@ def test_without_an_origin_the_first_end_is_the_origin():
 
 
 def test_ends_closer_than_20_px_are_refused_with_advice():
-    with pytest.raises(InputError, match=r"stick: expected ends at least 20 px apart, got 5\.0 px\. Zoom in"):
+    with pytest.raises(InputError, match=r"scale: expected ends at least 20 px apart, got 5\.0 px\. Zoom in"):
         calibrate((0, 0, 3, 4), 0.22)
 
 

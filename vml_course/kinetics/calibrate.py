@@ -45,14 +45,14 @@ def calibrate(
     """
     numbers = (*stick_px, length_m, axis_angle_rad, *(origin_px or ()))
     if len(stick_px) != 4 or not all(map(math.isfinite, numbers)):
-        raise InputError("stick", "two points x1, y1, x2, y2 and a length, all finite", numbers)
+        raise InputError("scale", "two points x1, y1, x2, y2 and a length, all finite", numbers)
     if length_m <= 0:
-        raise InputError("length", "more than 0 m", f"{length_text or length_m}")
+        raise InputError("scale", "a length of more than 0 m", f"{length_text or length_m}")
     x1, y1, x2, y2 = map(float, stick_px)
     distance_px = math.hypot(x2 - x1, y2 - y1)
     if distance_px < SHORTEST_STICK_PX:
         hint = "Zoom in or use a longer object."
-        raise InputError("stick", f"ends at least {SHORTEST_STICK_PX:g} px apart", f"{distance_px:.1f} px", hint)
+        raise InputError("scale", f"ends at least {SHORTEST_STICK_PX:g} px apart", f"{distance_px:.1f} px", hint)
     return Calibration(
         px_per_m=distance_px / length_m,
         origin_px=origin_px or (x1, y1),

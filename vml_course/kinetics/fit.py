@@ -26,7 +26,7 @@ class SwingFit:
     covariance : float array, shape (k, k)
         (J^T J)^-1 s^2, inflated by (1 + rho) / (1 - rho) for residuals that are alike from frame to frame.
     residual : float array, shape (rows,)
-        In units of sigma.
+        In units of sigma; the last one is that of the length.
     lag1 : float
         Mean lag-1 correlation rho of the residuals.
     length_slope : float array, shape (k,)
@@ -50,7 +50,7 @@ class SwingFit:
         """Root mean square of the residuals, in metres."""
         foot, ball = self.data.foot, self.data.ball
         sigma = np.concatenate([np.tile(foot.sigma_m, 2), np.tile(ball.sigma_m, 2)])
-        return float(np.sqrt(np.mean((self.residual * sigma) ** 2)))
+        return float(np.sqrt(np.mean((self.residual[: len(sigma)] * sigma) ** 2)))
 
 
 def fit_swing(data: SwingData) -> SwingFit:
@@ -85,7 +85,7 @@ def _start(data: SwingData) -> FloatArray:
     leg = [fit_line(foot.time_s[side], angle[side, None]) for side in (~foot.is_after, foot.is_after)]
     path = [fit_line(ball.time_s[side], ball.xy_m[side]) for side in (~ball.is_after, ball.is_after)]
     whole = np.zeros(len(swing.UNKNOWNS))
-    whole[swing.K : swing.K + 2] = pivot
+    whole[swing.K : swing.K + 2], whole[swing.R] = pivot, data.length_m
     whole[[swing.THETA, swing.W1, swing.W2]] = leg[0].position(0.0)[0], leg[0].slope[0], leg[1].slope[0]
     whole[swing.B : swing.B + 2] = path[0].position(0.0)
     whole[swing.V1 : swing.V1 + 2], whole[swing.V2 : swing.V2 + 2] = path[0].slope, path[1].slope

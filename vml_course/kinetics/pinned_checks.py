@@ -14,6 +14,7 @@ from vml_course.model.arrays import FloatArray
 
 LENGTH_SHARE = 0.02
 DOUBT_SD = 3.0
+RADIUS_NOTE = 0.003
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,6 +87,9 @@ def notes_on(figures: dict[str, float], e: tuple[float, float], options: ImpactO
         "check frame rate, scale, L and contact frames": _is_outside(e),
         f"the rate of the striker changes by {100 * abs(figures['r']):.1f} % only; I is as uncertain as that "
         "small difference": abs(figures["r"]) < 0.1,
+        f"the path of {options.striker} has a radius of {figures['arc_radius_m']:.4g} m, "
+        f"{100 * abs(figures['arc_radius_off']):.1f} % {'more' if figures['arc_radius_off'] > 0 else 'less'} than L: "
+        "the scale or the clicked point is a little off": abs(figures["arc_radius_off"]) > RADIUS_NOTE,
         _gravity_note(figures, options): _gravity_is_off(figures, options),
         f"{figures['contact_frames']:.0f} frames next to the impact show contact and were left out": figures[
             "contact_frames"

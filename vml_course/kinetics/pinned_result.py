@@ -112,6 +112,8 @@ def _figures(
         "pivot_x_m": u[swing.K],
         "pivot_y_m": u[swing.K + 1],
         "theta_impact_rad": u[swing.THETA],
+        "arc_radius_m": u[swing.R],
+        "arc_radius_off": u[swing.R] / fit.data.length_m - 1.0,
         "apparent_g_m_s2": fall.value,
         "apparent_g_sd_m_s2": fall.sd,
         "drive_rad_s2": u[swing.Q],

@@ -6,6 +6,8 @@ Vector of unknowns, in the order of `UNKNOWNS` (p and q may be absent; then they
     w1 w2      rate before, after, rad/s    t          time of the impact, s
     bx by      ball at the impact, m        v1x v1y v2x v2y   ball's velocity before, after, m/s
     p          gravity's angular acceleration M g c / I, 1/s^2     q    constant driving acceleration, rad/s^2
+    r          radius of the foot's path, m: the given length to within `LENGTH_PRIOR`, since a click beside the
+               mark (or a scale a little off) makes it another one, and rates would take the blame
 
 Perturbation of a fast rotation by gravity (p << w^2), with s = t - t_impact, phi = theta + w s and the
 leg's angle counted from the x axis when y is up:
@@ -22,8 +24,9 @@ from numpy.typing import NDArray
 
 from vml_course.model.arrays import FloatArray
 
-UNKNOWNS = ("kx", "ky", "theta", "w1", "w2", "t", "bx", "by", "v1x", "v1y", "v2x", "v2y", "p", "q")
-K, THETA, W1, W2, T, B, V1, V2, P, Q = 0, 2, 3, 4, 5, 6, 8, 10, 12, 13
+UNKNOWNS = ("kx", "ky", "theta", "w1", "w2", "t", "bx", "by", "v1x", "v1y", "v2x", "v2y", "p", "q", "r")
+K, THETA, W1, W2, T, B, V1, V2, P, Q, R = 0, 2, 3, 4, 5, 6, 8, 10, 12, 13, 14
+LENGTH_PRIOR = 0.01  # of the length: a click is a pixel or two off, a tape measure 5 mm
 _SMALL_TURN = 0.05
 
 
@@ -71,24 +74,28 @@ def full(x: FloatArray, unknowns: tuple[int, ...]) -> FloatArray:
 
 
 def residuals(x: FloatArray, data: SwingData) -> FloatArray:
-    """Return (model - measured) / sigma, shape (2 n_foot + 2 n_ball,): foot x, foot y, ball x, ball y."""
+    """Return (model - measured) / sigma, shape (2 n_foot + 2 n_ball + 1,): foot x, y, ball x, y, the length."""
     u = full(x, data.unknowns)
     angle, _ = _leg(u, data)
-    foot = u[K : K + 2, None] + data.length_m * np.stack([np.cos(angle), np.sin(angle)])
+    foot = u[K : K + 2, None] + u[R] * np.stack([np.cos(angle), np.sin(angle)])
     ball, _ = _ball(u, data)
     return np.concatenate([
         ((foot - data.foot.xy_m.T) / data.foot.sigma_m).ravel(),
         ((ball - data.ball.xy_m.T) / data.ball.sigma_m).ravel(),
+        [(u[R] - data.length_m) / (LENGTH_PRIOR * data.length_m)],
     ])  # fmt: skip
 
 
 def jacobian(x: FloatArray, data: SwingData) -> FloatArray:
-    """Return the derivatives of `residuals`, shape (2 n_foot + 2 n_ball, unknowns)."""
+    """Return the derivatives of `residuals`, shape (2 n_foot + 2 n_ball + 1, unknowns)."""
     u, n, m = full(x, data.unknowns), len(data.foot.time_s), len(data.ball.time_s)
     angle, slopes = _leg(u, data)
-    across = data.length_m * np.stack([-np.sin(angle), np.cos(angle)])
+    across = u[R] * np.stack([-np.sin(angle), np.cos(angle)])
     foot, ball = np.zeros((len(UNKNOWNS), 2, n)), np.zeros((len(UNKNOWNS), 2, m))
     foot[K, 0], foot[K + 1, 1] = 1.0, 1.0
+    foot[R] = np.stack([np.cos(angle), np.sin(angle)])
+    length = np.zeros((len(UNKNOWNS), 1))
+    length[R] = 1.0 / (LENGTH_PRIOR * data.length_m)
     for index, slope in slopes.items():
         foot[index] = slope * across
     s, velocity = _ball(u, data)[1]
@@ -97,15 +104,15 @@ def jacobian(x: FloatArray, data: SwingData) -> FloatArray:
         ball[V1 + axis, axis] = np.where(data.ball.is_after, 0.0, s)
         ball[V2 + axis, axis] = np.where(data.ball.is_after, s, 0.0)
     ball[T] = -velocity
-    rows = [(foot / data.foot.sigma_m).reshape(-1, 2 * n), (ball / data.ball.sigma_m).reshape(-1, 2 * m)]
+    rows = [(foot / data.foot.sigma_m).reshape(-1, 2 * n), (ball / data.ball.sigma_m).reshape(-1, 2 * m), length]
     return np.asarray(np.concatenate(rows, axis=1)[list(data.unknowns)].T)
 
 
 def length_slope(x: FloatArray, data: SwingData) -> FloatArray:
     """Return the derivative of `residuals` by the given length."""
-    angle, _ = _leg(full(x, data.unknowns), data)
-    foot = np.stack([np.cos(angle), np.sin(angle)]) / data.foot.sigma_m
-    return np.concatenate([foot.ravel(), np.zeros(2 * len(data.ball.time_s))])
+    rows = np.zeros(2 * (len(data.foot.time_s) + len(data.ball.time_s)) + 1)
+    rows[-1] = -full(x, data.unknowns)[R] / (LENGTH_PRIOR * data.length_m**2)
+    return rows
 
 
 def _leg(u: FloatArray, data: SwingData) -> tuple[FloatArray, dict[int, FloatArray]]:
