@@ -49,6 +49,8 @@ def run(arguments: list[str] | None = None) -> int:
         context = getattr(error, "ctx", None)
         where = context.command_path if context else "vml"
         return _say(f"{where}: {error.format_message()} (try '{where} --help')")
+    except OSError as error:  # a full disk, a folder where a file belongs: the system says it better than a traceback
+        return _say(f"{error.filename or 'vml'}: expected a place to read or write, got: {error.strerror or error}.")
     except (typer.Abort, KeyboardInterrupt):
         _say("vml: stopped.")
         return 130

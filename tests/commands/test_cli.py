@@ -59,3 +59,30 @@ def test_a_mistake_is_one_line_and_exit_code_2(vml, tmp_path, monkeypatch, argum
     assert names in err
     assert out == ""
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.fixture(scope="module")
+def clip(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("clip")
+    assert run(["render", "soccer_kick", "-o", str(folder)]) == 0
+    return folder / "video.mp4"
+
+
+@pytest.mark.parametrize("output", ["video.mp4", "folder.csv", "gone/a.csv", "/proc/a.csv"])
+def test_an_output_that_cannot_be_or_would_destroy_the_video_is_refused_before_tracking(vml, clip, output):
+    (clip.parent / "folder.csv").mkdir(exist_ok=True)
+    before = clip.read_bytes()
+    option = "--overlay" if output.endswith(".mp4") else "-o"
+    code, out, err = vml("track", clip, "-p", "ball=513,480", option, clip.parent / output)
+    assert (code, out) == (2, "")
+    assert one_line(err), err
+    assert clip.read_bytes() == before
+
+
+@pytest.mark.parametrize("command", [["render", "soccer_kick", "-o"], ["course", "new"]])
+def test_a_file_where_a_folder_is_wanted_is_one_line(vml, tmp_path, command):
+    (tmp_path / "file").write_text("mine", encoding="utf-8")
+    code, _, err = vml(*command, tmp_path / "file")
+    assert code == 2
+    assert one_line(err), err
+    assert (tmp_path / "file").read_text("utf-8") == "mine"

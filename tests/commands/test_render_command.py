@@ -48,7 +48,7 @@ def test_help_lists_the_scenes_and_an_example(capsys):
     [
         (["render", "socer", "-o", "x"], "scene: expected one of"),
         (["render", "soccer_kick"], "--out: expected a folder"),
-        (["render", "soccer_kick", "--set", "e=2", "-o", "x"], "restitution: expected 0.05 to 1, got 2."),
+        (["render", "soccer_kick", "--set", "e=2", "-o", "x"], "restitution (e): expected 0.05 to 1, got 2."),
         (["render", "soccer_kick", "--set", "q=2", "-o", "x"], "--set q: expected one of"),
         (["render", "soccer_kick", "--set", "px_per_m=900", "-o", "x"], "soccer_kick: expected an honest impact"),
     ],

@@ -62,12 +62,15 @@ def solve(
     at_rest: Annotated[bool, typer.Option("--at-rest", help="The struck body is at rest before the impact.")] = False,
     window: Annotated[str, typer.Option(help="Time each side that the joint fit uses.")] = "40 ms",
     gravity: Annotated[str, typer.Option(help="0 m/s^2 in a view from above.")] = "9.81 m/s^2",
+    scale_sd: Annotated[
+        str, typer.Option("--scale-sd", help="Relative standard deviation of the scale, such as 0.4%.")
+    ] = "0",
     method: Annotated[Method, typer.Option(help="joint: least squares; lines: as a student does it.")] = Method.both,
     as_json: Annotated[bool, typer.Option("--json", help="Print the result as JSON.")] = False,
 ) -> None:
     """Find restitution e and moment of inertia I of an impact, each with its uncertainty (one standard deviation)."""
     from vml_course.kinetics.impact_model import ImpactOptions
-    from vml_course.model.reading import read_quantity
+    from vml_course.model.reading import read_number, read_quantity
     from vml_course.usecases.solve_table import read_given, solve_table
 
     values, given_sd = read_given(given or [])
@@ -81,12 +84,15 @@ def solve(
         window_s=read_quantity(window, "time", name="--window").value,
         gravity_m_s2=read_quantity(gravity, "acceleration", name="--gravity").value,
         given_sd=given_sd,
+        scale_sd=read_number(scale_sd, name="--scale-sd"),
     )
     solved = solve_table(table, model, values, options, method.value)
     if as_json:
         typer.echo(json.dumps(_as_json(solved), indent=1, ensure_ascii=False))
     else:
         _print(solved)
+        if not options.scale_sd:
+            typer.echo("note: the ± leave out how well the scale is known; say it with --scale-sd, such as 0.4%")
 
 
 def _as_json(solved: Solved) -> dict[str, Any]:

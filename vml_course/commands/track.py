@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from vml_course.usecases.summarise_track import PointSummary
 
 EXAMPLE = (
-    'Example: vml track kick.mp4 -p ball=513,480 -p foot=147,258 --fps 480 --scale "297,610,794,610=1 m" '
+    'Example: vml track kick.mp4 -p ball=513,480 -p foot=146,257 --fps 480 --scale "295,610,795,610=1 m" '
     "-o kick.xlsx --overlay kick-overlay.mp4"
 )
 
@@ -100,7 +100,7 @@ def track(
     tables = out or []
     if not tables and overlay is None:
         raise InputError("-o", "a table or an overlay to write", "nothing", "Add -o track.xlsx.")
-    check_outputs(tables, overlay)
+    check_outputs(tables, overlay, video)
     _say_if_compiling(method)
     with progress(f"track {video.name}") as show:
         tracked = track_clip(request, show)

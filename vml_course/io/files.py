@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import hashlib
 import secrets
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from vml_course.errors import FileFormatError, FileMissingError
@@ -32,18 +32,38 @@ def replacing(path: Path) -> Iterator[Path]:
             str(path), "a file that may be written", "no permission", "Close it in other programs."
         ) from error
     finally:
-        temporary.unlink(missing_ok=True)
+        with suppress(OSError):  # where it could not be made, it need not be removed
+            temporary.unlink(missing_ok=True)
 
 
 def check_folder(path: Path) -> None:
-    """Refuse a file name whose folder does not exist.
+    """Refuse a file name that cannot be written: no such folder, a folder in the way, no right to write.
 
     Raises
     ------
-    FileMissingError
+    FileMissingError, FileFormatError
     """
     if not path.parent.is_dir():
         raise FileMissingError(str(path), "an existing folder to write into", f"no folder {path.parent}")
+    if path.is_dir():
+        raise FileFormatError(str(path), "the name of a file", "a folder")
+    trial = path.with_name(f".{secrets.token_hex(8)}")
+    try:
+        trial.touch(exist_ok=False)
+        trial.unlink()
+    except OSError as error:
+        raise FileFormatError(str(path), "a folder that may be written into", error.strerror) from error
+
+
+def check_not_source(path: Path, sources: Iterable[Path]) -> None:
+    """Refuse to write over a file that is read, or twice to one file.
+
+    Raises
+    ------
+    FileFormatError
+    """
+    if path.resolve() in {source.resolve() for source in sources}:
+        raise FileFormatError(str(path), "a name of its own", "that of another file of this command")
 
 
 def existing(path: Path) -> Path:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from vml_course.errors import FileFormatError
 from vml_course.io.csv_file import write_csv
-from vml_course.io.files import check_folder
+from vml_course.io.files import check_folder, existing
 from vml_course.io.mat import write_mat
 from vml_course.io.read_motion import motion_from_mat, motion_from_table
 from vml_course.io.xlsx import write_xlsx
@@ -62,6 +62,6 @@ def read_motion(path: Path) -> Motion:
         When a column is missing or a cell holds text; it names column and row.
     """
     path = Path(path)
-    if path.suffix.lower() not in READERS:
+    if path.suffix.lower() not in READERS and not path.is_dir():
         raise FileFormatError(path.name, f"a name ending in {', '.join(READERS)}", repr(path.suffix))
-    return READERS[path.suffix.lower()](path)
+    return READERS[existing(path).suffix.lower()](path)

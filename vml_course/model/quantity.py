@@ -27,6 +27,11 @@ class Quantity:
     whole: bool
 
     @property
+    def shown_name(self) -> str:
+        """The field's name with the textbook's letter, such as `restitution (e)`."""
+        return f"{self.name} ({self.symbol})" if self.symbol else self.name
+
+    @property
     def range_text(self) -> str:
         """The range as a person reads it, such as `0.1 to 2 kg`."""
         return f"{self.low:g} to {self.high:g} {self.unit}".rstrip()
@@ -74,7 +79,7 @@ def check_quantities(record: Any) -> None:
         When a value lies outside its declared range.
     """
     for name, declared in quantities_of(record).items():
-        value = getattr(record, name)
+        value, name = getattr(record, name), declared.shown_name  # noqa: PLW2901 - as the user may know it
         if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
             raise InputError(name, f"a number from {declared.range_text}", repr(value))
         if declared.whole and value != int(value):

@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from vml_course.io.encode import check_video_name
+from vml_course.io.files import check_not_source
 from vml_course.io.overlay import write_overlay
 from vml_course.io.tables import check_table_name, write_track
 from vml_course.model.tracked import Tracked
@@ -13,20 +14,21 @@ from vml_course.model.tracked import Tracked
 Progress = Callable[[int, int], None]
 
 
-def check_outputs(tables: Sequence[Path], overlay: Path | None = None) -> None:
+def check_outputs(tables: Sequence[Path], overlay: Path | None = None, video: Path | None = None) -> None:
     """Refuse names that nothing can be written to, before anything is measured.
 
     Raises
     ------
     FileFormatError
-        When an ending names no format.
+        When an ending names no format, a name is that of the video or given twice, or cannot be written.
     FileMissingError
         When a folder does not exist.
     """
-    for path in tables:
-        check_table_name(path)
-    if overlay is not None:
-        check_video_name(overlay)
+    taken = [] if video is None else [video]
+    for path in (*tables, *([overlay] if overlay is not None else [])):
+        check_video_name(path) if path is overlay else check_table_name(path)
+        check_not_source(path, taken)
+        taken.append(path)
 
 
 def export_track(
@@ -43,7 +45,7 @@ def export_track(
     VideoError
         When the video cannot be read again for the overlay.
     """
-    check_outputs(tables, overlay)
+    check_outputs(tables, overlay, tracked.path)
     for path in tables:
         write_track(path, tracked)
     if overlay is None:
