@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import combinations
@@ -120,6 +121,8 @@ def check_request(request: TrackRequest) -> None:
                 raise UnknownNameError(f"vector {vector.name}", end, points)
         if vector.tail == vector.head:
             raise InputError(f"vector {vector.name}", "two different points", f"{vector.tail} twice")
+    if not math.isfinite(request.axis_angle_rad):
+        raise InputError("axis angle", "a number of degrees", request.axis_angle_rad)
     make_tracker(request.method, **request.settings)
 
 
@@ -158,6 +161,10 @@ def picture_count(request: TrackRequest, source: Source) -> int:
 def _calibration(request: TrackRequest, source: Source) -> Calibration | None:
     if request.stick_px is None or request.length_m is None:
         return None
+    width, height = source.info.width_px, source.info.height_px
+    for x, y in (request.stick_px[:2], request.stick_px[2:]):
+        if not (-0.5 <= x <= width - 0.5 and -0.5 <= y <= height - 0.5):
+            raise InputError("scale", f"two points in the picture ({width} x {height} px)", f"({x:g}, {y:g})")
     return calibrate(
         request.stick_px,
         request.length_m,
