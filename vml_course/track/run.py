@@ -12,6 +12,7 @@ from vml_course.model.arrays import FloatArray
 from vml_course.model.frame import Frame
 from vml_course.model.track import Seed, Sighting, Track
 from vml_course.track.prefetch import prefetched
+from vml_course.track.scatter import vouched
 from vml_course.track.tracker import Tracker
 
 OnFrame = Callable[[Frame, Sighting], None]
@@ -43,7 +44,8 @@ def run(
     Returns
     -------
     Track
-        `time_s` is 0 at the first picture.
+        `time_s` is 0 at the first picture. Its sigmas cover the scatter in time of the whole clip, so they are
+        larger than those that `on_frame` is shown on the way; see `scatter`.
 
     Raises
     ------
@@ -67,7 +69,7 @@ def run(
         raise FrameRangeError("frames", "at least one picture to track in", "none")
     index, stamp_s = np.array([i for i, _ in shown]), np.array([t for _, t in shown])
     time_s = stamp_s - stamp_s[0] if fps is None else (index - index[0]) / fps
-    return _assemble(tracker, tuple(seed.name for seed in seeds), index, time_s, seen)
+    return vouched(_assemble(tracker, tuple(seed.name for seed in seeds), index, time_s, seen))
 
 
 def _sightings(
