@@ -5,7 +5,8 @@ from __future__ import annotations
 import os
 from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import islice
+from itertools import islice, pairwise
+from statistics import median
 from time import perf_counter, process_time
 from typing import NamedTuple
 
@@ -56,8 +57,8 @@ def estimate_track(request: TrackRequest) -> TrackEstimate:
     opened_s = perf_counter() - started
     decoded = _cost_each(lambda: pilot.extend(islice(frames, DECODED_FRAMES - 1)), min(total, DECODED_FRAMES) - 1)
     shown = pilot[:PILOT_FRAMES]
-    _track(request, shown)
-    tracked = _cost_each(lambda: _track(request, shown), len(shown))
+    _steps(request, shown)
+    tracked = _steps(request, shown)
     busy_s = (decoded.cpu_s + tracked.cpu_s) / (os.cpu_count() or 1)
     per_frame = max(decoded.wall_s, tracked.wall_s, busy_s)
     return TrackEstimate(opened_s + per_frame * (total - 1), total, len(request.seeds), per_frame)
@@ -70,5 +71,10 @@ def _cost_each(work: Callable[[], object], count: int) -> _Cost:
     return _Cost(share * (perf_counter() - wall_s), share * (process_time() - cpu_s))
 
 
-def _track(request: TrackRequest, pilot: list[Frame]) -> None:
-    run(make_tracker(request.method, **request.settings), pilot, request.seeds)
+def _steps(request: TrackRequest, pilot: list[Frame]) -> _Cost:
+    """Return the middle cost of a step: learning the blocks and the first search happen once in a clip."""
+    stamps: list[_Cost] = []
+    tracker = make_tracker(request.method, **request.settings)
+    run(tracker, pilot, request.seeds, on_frame=lambda *_: stamps.append(_Cost(perf_counter(), process_time())))
+    steps = [(b.wall_s - a.wall_s, b.cpu_s - a.cpu_s) for a, b in pairwise(stamps)] or [(0.0, 0.0)]
+    return _Cost(median(wall for wall, _ in steps), median(cpu for _, cpu in steps))
