@@ -1,17 +1,15 @@
+import numpy as np
 import pytest
 
 from vml_course.errors import InputError
 from vml_course.io.video import write_video
+from vml_course.model.frame import Picture
 from vml_course.model.track import Seed
 from vml_course.usecases.track_clip import TrackRequest, track_clip
 
 
 @pytest.fixture(scope="module")
 def video(tmp_path_factory):
-    import numpy as np
-
-    from vml_course.model.frame import Picture
-
     rng = np.random.default_rng(1)
     luma = rng.integers(0, 255, (120, 160), dtype=np.uint8)
     grey = np.full((60, 80), 128, np.uint8)
