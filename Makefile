@@ -32,7 +32,7 @@ test: check
 	$(BIN)/pytest -n 2 -m "not accuracy"
 
 accuracy: .venv/.dev
-	$(BIN)/pytest -m accuracy
+	$(BIN)/pytest -m accuracy -s
 
 bench: .venv/.dev
 	@for script in benchmarks/*.py; do echo "== $$script"; $(BIN)/python $$script || exit 1; done
