@@ -16,6 +16,7 @@ from typing import Literal
 from assignments.course import Course
 from assignments.model import AnswerKey, Assignment, Variant
 from assignments.release import HANDOUT, WORKBOOK, Order, Release, release
+from assignments.workplace import sweep, workplace_prefix
 from vml_course.errors import InputError, VmlError
 from vml_course.executors import open_executor
 
@@ -100,7 +101,8 @@ def hand_out(  # noqa: PLR0913 - four things to hand out, and how
     tell = progress or (lambda _done, _total: None)
     tell(len(results), len(students))
     # The truth lies beside the video while it is made: never inside the folder that is handed out.
-    with tempfile.TemporaryDirectory(prefix=".making-", dir=course.folder) as work:
+    sweep(course.folder)
+    with tempfile.TemporaryDirectory(prefix=workplace_prefix(), dir=course.folder) as work:
         orders = (_order(Path(work), course, assignment, student, due) for student in missing)
         for order, future in _releases(orders, workers):
             results[order.student] = _finish(future, home / order.student, Path(order.out), keep)

@@ -17,6 +17,19 @@ def split_symbol(symbol: str) -> tuple[str, str]:
     return letter, below
 
 
+_BELOW = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
+
+
+def symbol_text(symbol: str) -> str:
+    """Return a symbol as plain text comes nearest to print: digits below the line, letters as they are.
+
+    >>> symbol_text("ω_1"), symbol_text("v_f1"), symbol_text("e")
+    ('ω₁', 'v_f1', 'e')
+    """
+    letter, below = split_symbol(symbol)
+    return letter + below.translate(_BELOW) if below.isdigit() else symbol
+
+
 def tolerance_text(question: Question) -> str:
     """Say how near an answer must come for full points."""
     relative = f"within {question.tolerance * 100:g} %"

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import getpass
 import json
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -13,7 +15,8 @@ import typer
 from vml_course.commands._progress import progress, stages
 
 if TYPE_CHECKING:
-    from grader.usecases import Checked, Graded
+    from grader.form import Checked
+    from grader.usecases import Graded
 
 CourseOption = Annotated[Path, typer.Option("--course", metavar="DIR", help="The course folder.")]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print the result as JSON.")]
@@ -25,14 +28,17 @@ def register(app: typer.Typer) -> None:
     app.command("handout")(handout)
     app.command("grade")(grade)
     app.command("check")(check)
-    book = typer.Typer(help="Look into the gradebook of a course.", no_args_is_help=True)
+    book = typer.Typer(
+        help="Look into the gradebook of a course, and settle what needs a person.", no_args_is_help=True
+    )
     book.callback()(_group)
     book.command("show")(show)
+    book.command("set")(set_)
     app.add_typer(book, name="gradebook")
 
 
 def _group() -> None:
-    """Look into the gradebook of a course."""
+    """Look into the gradebook of a course, and settle what needs a person."""
 
 
 def demo(
@@ -79,7 +85,7 @@ def handout(
     from assignments.course import open_course
     from grader.usecases import hand_out_to
 
-    with progress("handing out") as show:
+    with _resumable(), progress("handing out") as show:
         handed, students = hand_out_to(open_course(course), assignment, student or (), workers=workers, progress=show)
     if as_json:
         _print_json([{**asdict(item), "folder": str(item.folder)} for item in handed])
@@ -96,11 +102,20 @@ def grade(
     files: Annotated[list[Path], typer.Argument(help="Workbooks, or folders of workbooks.")],
     course: CourseOption,
     show_truth: Annotated[
-        bool, typer.Option("--show-truth/--hide-truth", help="Show students the true values, as after the due date.")
-    ] = True,
+        bool,
+        typer.Option(
+            "--show-truth/--hide-truth",
+            help="Show students the true values and curves. Only after the due date: before it, hide them (default).",
+        ),
+    ] = False,
     as_json: JsonOption = False,
 ) -> None:
     """Grade workbooks, keep the grades, write a feedback page for each student and one for the class.
+
+    The newest attempt counts. An attempt is as old as the first arrival of its content: an old file graded again stays
+    old. Files of one student that come in together are taken in the order in which they were last changed.
+
+    Until the due date the pages hide true values and curves; hints and outcomes stay. After it, add --show-truth.
 
     Example: vml grade returned/*.xlsx --course dynamics-2026
     """
@@ -108,7 +123,7 @@ def grade(
     from grader.usecases import grade_files
 
     opened = open_course(course)
-    with progress("grading") as show:
+    with _resumable(), progress("grading") as show:
         graded = grade_files(opened, files, show_truth=show_truth, progress=show)
     if as_json:
         _print_json([{**asdict(g), "file": str(g.file), "feedback": g.feedback and str(g.feedback)} for g in graded])
@@ -123,8 +138,11 @@ def _print_graded(graded: Iterable[Graded], folder: Path) -> None:
 
     graded = list(graded)
     for item in graded:
-        points = f"{points_text(item.points)} / {points_text(item.out_of)}" if item.status != "unreadable" else "–"
-        typer.echo(f"{item.pid or '–':10}{points:>12}  {item.status:11}{item.message or item.file.name}")
+        earned = points_text(item.points, is_provisional=item.is_provisional)
+        points = f"{earned} / {points_text(item.out_of)}" if item.status in {"ok", "review"} else "–"
+        said = item.message.removeprefix(f"{item.file.name}: ")
+        line = f"{item.pid or '–':10}{points:>14}  {item.status:11}{item.file.name}{'  ' if said else ''}{said}"
+        typer.echo(line)
     for assignment_id in dict.fromkeys(item.assignment_id for item in graded if item.assignment_id):
         typer.echo(f"Class page: {folder / 'feedback' / assignment_id / 'class.html'}")
 
@@ -135,9 +153,11 @@ def check(
 ) -> None:
     """Look at a workbook as the grader will: can it be read, is it complete. Says nothing about right or wrong.
 
+    It does not test the variant code either: hand in the workbook that came with your own video.
+
     Example: vml check workbook.xlsx
     """
-    from grader.usecases import check_workbook
+    from grader.form import check_workbook
 
     result = check_workbook(workbook)
     if as_json:
@@ -147,6 +167,7 @@ def check(
             typer.echo(f"{_mark(answer)} {answer.label}: {answer.says}")
         typer.echo(f"{'✓' if result.tracking_rows else '✗'} Tracking table: {result.tracking_rows} rows")
         typer.echo("Complete: it can be handed in." if result.is_complete else "Not complete yet.")
+        typer.echo("Only the form was looked at: not whether values are right, not whether the variant code is yours.")
     if not result.is_complete:
         raise typer.Exit(1)
 
@@ -171,14 +192,57 @@ def show(course: CourseOption, as_json: JsonOption = False) -> None:
         return
     for row in rows:
         who = f"{row.student.pid}  {row.student.name:24}{row.assignment_id:16}"
-        typer.echo(f"{who}{points_text(row.points)} / {points_text(row.out_of)}  attempt {row.attempt}  {row.status}")
+        earned = points_text(row.points, is_provisional=row.is_provisional)
+        typer.echo(f"{who}{earned} / {points_text(row.out_of)}  attempt {row.attempt}  {row.status}")
+        for text in row.adjustments:
+            typer.echo(f"{'':10}{text}")
     graded = {row.student.pid for row in rows}
     for student in students:
         if student.pid not in graded:
             typer.echo(f"{student.pid}  {student.name:24}{'nothing graded yet'}")
 
 
+def set_(
+    pid: Annotated[str, typer.Argument(metavar="PID", help="The student's pseudonym.")],
+    assignment: Annotated[str, typer.Argument(metavar="ASSIGNMENT", help="Name of the assignment.")],
+    question: Annotated[str, typer.Argument(metavar="QUESTION", help="Question, such as e; `total` for the whole.")],
+    points: Annotated[float, typer.Argument(metavar="POINTS", help="Points that it is worth.")],
+    reason: Annotated[str, typer.Option(help="Why; the student reads it.")],
+    course: CourseOption,
+    as_json: JsonOption = False,
+) -> None:
+    """Settle a review: set the points of a question of the attempt that counts. Nothing is overwritten.
+
+    Example: vml gradebook set k3m9x2ab soccer-kick e 6 --reason "0.57 was meant" --course dynamics-2026
+    """
+    from assignments.course import open_course
+    from grader.adjust import Adjustment
+    from grader.events import now
+    from grader.feedback import points_text
+    from grader.usecases import set_points
+
+    adjustment = Adjustment(question, points, reason, getpass.getuser(), now())
+    row = set_points(open_course(course), assignment, pid, adjustment)
+    if as_json:
+        _print_json(asdict(row))
+        return
+    typer.echo(f"{pid}: {adjustment}")
+    earned = points_text(row.points, is_provisional=row.is_provisional)
+    typer.echo(f"{earned} / {points_text(row.out_of)}  {row.status}  {' '.join(row.reasons)}".rstrip())
+    typer.echo("The class page is written anew; the student's page shows it when their file is graded again.")
+
+
 # ---------------------------------------------------------------- shared
+
+
+@contextmanager
+def _resumable() -> Iterator[None]:
+    """Say that nothing is lost when a long run is stopped by hand."""
+    try:
+        yield
+    except KeyboardInterrupt:
+        typer.echo("vml: stopped; run the same command again to continue.", err=True)
+        raise typer.Exit(130) from None
 
 
 def _print_json(result: Any) -> None:

@@ -121,7 +121,7 @@ def run_demo(folder: Path, students: int, workers: int, say: Say) -> DemoResult:
         say(f"student {number + 1} {persona.story}", 0.5 + 0.45 * number / len(handed))
         returned.append(_hand_in(course, assignment, item, persona))
     say("grade", 0.97)
-    graded = grade_files(course, returned)
+    graded = grade_files(course, returned, show_truth=True)
     stories = {item.student: PERSONAS[number % len(PERSONAS)].story for number, item in enumerate(handed)}
     return DemoResult(course.folder, stories, tuple(graded))
 

@@ -12,6 +12,8 @@ from dataclasses import dataclass
 
 from assignments.mistakes import ImpactNumbers, mistakes_about
 from assignments.model import AnswerKey, Question
+from grader.arm import CODE as ARM
+from grader.arm import arm_hint
 from grader.hints import hint_for
 from grader.model import Diagnosis, Factor, Outcome, Submission
 from grader.own import OwnNumbers, own_numbers, true_numbers, value_of
@@ -35,14 +37,20 @@ class Candidate:
     rounding: float = 0.0
 
 
-def diagnose_factors(factors: Iterable[Factor], questions: Mapping[str, Question]) -> tuple[Diagnosis, ...]:
+def diagnose_factors(
+    factors: Iterable[Factor], key: AnswerKey, questions: Mapping[str, Question]
+) -> tuple[Diagnosis, ...]:
     """Put the common factors of velocities and angular velocities into words."""
     subjects = {"velocity": "velocities", "angular_velocity": "angular velocities"}
     return tuple(
-        Diagnosis(subjects[questions[f.ids[0]].dimension], f.codes, hint_for(f.codes), "truth")
+        Diagnosis(subjects[questions[f.ids[0]].dimension], f.codes, _factor_hint(f, key), "truth", f.ids)
         for f in factors
         if len(f.codes) <= LARGEST_GROUP
     )
+
+
+def _factor_hint(factor: Factor, key: AnswerKey) -> str:
+    return arm_hint(factor, key) if factor.codes == (ARM,) else hint_for(factor.codes)
 
 
 def diagnose_answer(
@@ -58,7 +66,7 @@ def diagnose_answer(
         codes, basis = _from_truth(quantity, stated.value, key, questions[quantity].tolerance), "truth"
     if not 1 <= len(codes) <= LARGEST_GROUP:
         return None
-    return Diagnosis(quantity, codes, hint_for(codes), basis)
+    return Diagnosis(quantity, codes, hint_for(codes), basis, (quantity,))
 
 
 def _right(quantity: str, way: OwnNumbers) -> Candidate:

@@ -10,6 +10,7 @@ import statistics
 from collections.abc import Iterable, Mapping
 
 from assignments.model import AnswerKey, Question
+from grader.arm import find_arm
 from grader.model import Factor, Submission
 from grader.stated import Stated, state
 
@@ -26,7 +27,10 @@ _VAGUE = frozenset({"K7", "K8"})  # "your own scale (rate)" is said only where n
 
 
 def find_factors(submission: Submission, key: AnswerKey, questions: Mapping[str, Question]) -> tuple[Factor, ...]:
-    """Return the named factors of the velocities and of the angular velocities, none where they are right."""
+    """Return the named factors of the velocities and of the angular velocities, none where they are right.
+
+    A common factor of the foot's speeds that I shares is another arm than L: it comes first.
+    """
     found = []
     for dimension, names in (("velocity", _velocity_names), ("angular_velocity", _omega_names)):
         asked = [question for question in questions.values() if question.dimension == dimension]
@@ -38,6 +42,9 @@ def find_factors(submission: Submission, key: AnswerKey, questions: Mapping[str,
         codes = _codes(shared[0], names(submission, key, questions), tolerance)
         if codes:
             found.append(Factor(codes, *shared))
+    arm = find_arm(submission, key, questions)
+    if arm is not None:  # explains more than any factor of the foot's speeds alone
+        return (arm, *(factor for factor in found if not set(factor.ids) <= set(arm.ids)))
     return tuple(found)
 
 

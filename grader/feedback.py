@@ -20,7 +20,7 @@ from assignments.words import split_symbol
 from grader.charts import CurveChart, curve_chart, histogram
 from grader.checks import explanation_of
 from grader.curves import curves_of
-from grader.gradebook import Row
+from grader.gradebook import Row, Student
 from grader.hints import about
 from grader.model import Answer, Finding, Grade, Outcome, Submission, overall
 from grader.stated import Stated, state
@@ -45,6 +45,7 @@ class Line:
     label: str
     symbol: Markup
     own: str
+    read_as: str
     where: str
     truth: str
     band: str
@@ -73,6 +74,7 @@ class Report:
     grade: Grade
     attempt: int = 1
     show_truth: bool = True
+    adjustments: tuple[str, ...] = ()
 
 
 def feedback_page(report: Report) -> str:
@@ -87,11 +89,13 @@ def feedback_page(report: Report) -> str:
         assignment=report.assignment,
         pid=report.key.student,
         attempt=report.attempt,
-        points=points_text(grade.points),
+        points=points_text(grade.points, is_provisional=grade.is_provisional),
         out_of=points_text(grade.out_of),
         share=grade.points / grade.out_of if grade.out_of else 0.0,
-        needs_person=grade.status == "review",
-        hints=[diagnosis.hint for diagnosis in grade.diagnosis],
+        needs_person=grade.status != "ok",
+        empty=grade.reasons[0] if grade.status == "empty" else "",
+        adjustments=report.adjustments,
+        hints=_hints(report),
         groups=[_group(report, title, questions) for title, questions in report.assignment.question_groups().items()],
         show_truth=report.show_truth,
         tracking=[_finding(f) for f in grade.of("tracking")],
@@ -99,6 +103,16 @@ def feedback_page(report: Report) -> str:
         curve_note=_curve_note(fit) if fit else "",
         has_table=bool(report.submission.tracking),
     )
+
+
+def _hints(report: Report) -> list[tuple[Markup, str]]:
+    """Return each hint once, with the cells that it is about, as symbols."""
+    symbols = {question.id: symbol(question.symbol) for question in report.assignment.questions}
+    hints: dict[str, dict[Markup, None]] = {}
+    for diagnosis in report.grade.diagnosis:
+        about_ = (symbols.get(id_, Markup("Tracking table")) for id_ in diagnosis.ids or (diagnosis.subject,))
+        hints.setdefault(diagnosis.hint, {}).update(dict.fromkeys(about_))
+    return [(Markup(", ").join(cells), hint) for hint, cells in hints.items()]
 
 
 def _group(report: Report, title: str, questions: Sequence[Question]) -> Group:
@@ -120,6 +134,7 @@ def _line(report: Report, question: Question) -> Line:
         label=question.label,
         symbol=symbol(question.symbol),
         own=_own(answer, question),
+        read_as=answer.read_as,
         where=answer.where.rpartition("!")[2],
         truth=truth,
         band=band,
@@ -131,7 +146,7 @@ def _line(report: Report, question: Question) -> Line:
 
 def _own(answer: Answer, question: Question) -> str:
     stated = state(answer, question)
-    text = stated.text if isinstance(stated, Stated) else answer.text
+    text = stated.text if isinstance(stated, Stated) and not answer.read_as else answer.text
     return unit_text(text[:60]) or "nothing"
 
 
@@ -156,16 +171,18 @@ def verdict(findings: Sequence[Finding]) -> Verdict:
 
 
 def _points(findings: Sequence[Finding]) -> str:
-    return f"{points_text(sum(f.points for f in findings))} / {points_text(sum(f.out_of for f in findings))}"
+    is_provisional = any(f.outcome is Outcome.UNSURE and f.out_of > 0 for f in findings)
+    earned = points_text(sum(f.points for f in findings), is_provisional=is_provisional)
+    return f"{earned} / {points_text(sum(f.out_of for f in findings))}"
 
 
-def points_text(points: float) -> str:
-    """Return points with two decimals at most, halves rounded up.
+def points_text(points: float, *, is_provisional: bool = False) -> str:
+    """Return points with two decimals at most, halves rounded up; provisional ones may become fewer.
 
-    >>> points_text(17.525), points_text(20.0)
-    ('17.53', '20')
+    >>> points_text(17.525), points_text(20.0), points_text(6, is_provisional=True)
+    ('17.53', '20', 'up to 6')
     """
-    return f"{math.floor(points * 100 + 0.5 + 1e-9) / 100:g}"
+    return f"{'up to ' if is_provisional else ''}{math.floor(points * 100 + 0.5 + 1e-9) / 100:g}"
 
 
 def _charts(report: Report, fit: TrajectoryFit) -> tuple[CurveChart, ...]:
@@ -188,7 +205,12 @@ def _curve_note(fit: TrajectoryFit) -> str:
 # ---------------------------------------------------------------- the class
 
 
-def class_page(assignment: Assignment, rows: Sequence[Row], unreadable: Sequence[tuple[str, str]] = ()) -> str:
+def class_page(
+    assignment: Assignment,
+    rows: Sequence[Row],
+    unreadable: Sequence[tuple[str, str]] = (),
+    students: Sequence[Student] = (),
+) -> str:
     """Return the instructor's page; it is the only page with names.
 
     Parameters
@@ -197,6 +219,8 @@ def class_page(assignment: Assignment, rows: Sequence[Row], unreadable: Sequence
     rows : sequence of Row
         Effective grades.
     unreadable : sequence of (file, reason)
+    students : sequence of Student
+        The whole class: who handed in nothing is listed.
     """
     ids = [question.id for question in assignment.questions]
     shares = [row.points / row.out_of for row in rows if row.out_of]
@@ -208,13 +232,21 @@ def class_page(assignment: Assignment, rows: Sequence[Row], unreadable: Sequence
         columns=[(q.id, symbol(q.symbol), q.label) for q in assignment.questions],
         cells={row.student.pid: {i: _cell(row, i) for i in ids} for row in rows},
         mean=f"{100 * fmean(shares):.0f} %" if shares else "–",
-        review=[row for row in rows if row.status == "review"],
+        review=[row for row in rows if row.status != "ok"],
+        missing=_missing(rows, students),
+        several=[row for row in rows if row.attempts > 1],
+        adjusted=[row for row in rows if row.adjustments],
         bars=histogram(shares),
         facility=[(symbol(q.symbol), q.label, _facility(rows, q.id)) for q in assignment.questions],
         mistakes=[(code, about(code), count) for code, count in mistakes.most_common()],
-        unreadable=unreadable,
+        unreadable=[(file, reason.removeprefix(f"{file}: ")) for file, reason in unreadable],
         points_text=points_text,
     )
+
+
+def _missing(rows: Sequence[Row], students: Sequence[Student]) -> list[Student]:
+    graded = {row.student.pid for row in rows}
+    return [student for student in students if student.pid not in graded]
 
 
 def _cell(row: Row, question_id: str) -> Verdict:

@@ -6,13 +6,16 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 from assignments.model import AnswerKey, Assignment, Question
+from assignments.sheets import ANSWERS
+from assignments.words import symbol_text
 from grader.checks import check_named
 from grader.diagnose import diagnose_answer, diagnose_factors, needs_diagnosis
 from grader.factors import find_factors
-from grader.hints import hint_for
-from grader.model import Asked, Diagnosis, Finding, Grade, Outcome, Submission
+from grader.hints import one_hint_a_cause, with_marks
+from grader.model import UNSURE_ABOUT, Asked, Diagnosis, Finding, Grade, Kind, Outcome, Submission
+from grader.plausible import settle_readings
 
-GRADER_VERSION = "1"
+GRADER_VERSION = "2"
 """Goes into every run; raise it when the same submission could get other points."""
 
 TRACKING = Question("tracking", "Tracking table", "", "number", "", 0.0, "tracking", 0.0, "measurement")
@@ -53,6 +56,7 @@ def grade(submission: Submission, key: AnswerKey, assignment: Assignment) -> Gra
         Findings in the order of the questions; `status` is `review` where something is unsure.
     """
     questions = {question.id: question for question in assignment.questions}
+    submission = settle_readings(submission, questions, key.values)
     factors = find_factors(submission, key, questions)
     judged = _Judged()
     for question in in_order(assignment.questions):
@@ -60,8 +64,9 @@ def grade(submission: Submission, key: AnswerKey, assignment: Assignment) -> Gra
         judged = _judge(judged, asked)
     if not any(question.check == TRACKING.check for question in assignment.questions):
         judged = _judge(judged, Asked(submission, key, TRACKING, judged.charged, factors, questions))
-    diagnosis = (*diagnose_factors(factors, questions), *_diagnoses(submission, key, questions, judged.findings))
-    return _sum_up(submission, assignment, _named(judged.findings, diagnosis), _with_marks(diagnosis, judged.findings))
+    diagnosis = (*diagnose_factors(factors, key, questions), *_diagnoses(submission, key, questions, judged.findings))
+    findings = _named(judged.findings, diagnosis)
+    return _sum_up(submission, assignment, findings, one_hint_a_cause(with_marks(diagnosis, judged.findings)))
 
 
 def in_order(questions: Iterable[Question]) -> Iterator[Question]:
@@ -83,8 +88,17 @@ def _judge(judged: _Judged, asked: Asked) -> _Judged:
         points = asked.question.points
         findings = (Finding(asked.question.id, "value", Outcome.UNSURE, points, points, message),)
     paid = any(f.aspect == "value" and f.outcome in {Outcome.WRONG, Outcome.PARTIAL} for f in findings)
+    findings = tuple(_with_reading(finding, asked) for finding in findings)
     charged = judged.charged | ({asked.question.id} if paid else set())
     return _Judged((*judged.findings, *findings), frozenset(charged))
+
+
+def _with_reading(finding: Finding, asked: Asked) -> Finding:
+    """Say how a comma was read, once a question."""
+    read_as = asked.submission.answer(asked.question.id).read_as
+    if not read_as or finding.aspect != "value":
+        return finding
+    return replace(finding, message=f"Read as {read_as}. {finding.message}")
 
 
 def _diagnoses(
@@ -107,26 +121,27 @@ def _named(findings: Iterable[Finding], diagnosis: Iterable[Diagnosis]) -> tuple
     )
 
 
-def _with_marks(diagnosis: Iterable[Diagnosis], findings: Iterable[Finding]) -> tuple[Diagnosis, ...]:
-    """Add a hint for each mistake that only a single finding tells of, such as a scale turned over."""
-    diagnosis = tuple(diagnosis)
-    said = {code for d in diagnosis for code in d.codes}
-    extra = {f.mistake: f for f in reversed(tuple(findings)) if f.mistake and f.mistake not in said}
-    return (*(Diagnosis(f.question_id, (code,), hint_for((code,)), "truth") for code, f in extra.items()), *diagnosis)
-
-
 def _sum_up(
     submission: Submission, assignment: Assignment, findings: tuple[Finding, ...], diagnosis: tuple[Diagnosis, ...]
 ) -> Grade:
     reasons = tuple(_reasons(submission, assignment, findings))
+    is_empty = all(submission.answer(question.id).kind is Kind.BLANK for question in assignment.questions)
+    if is_empty:
+        reasons = (_why_empty(submission, assignment), *reasons)
     return Grade(
         findings=findings,
         points=round(sum(f.points for f in findings), 6),
         out_of=round(sum(f.out_of for f in findings), 6),
-        status="review" if reasons else "ok",
+        status="empty" if is_empty else "review" if reasons else "ok",
         diagnosis=diagnosis,
         reasons=reasons,
     )
+
+
+def _why_empty(submission: Submission, assignment: Assignment) -> str:
+    if not any(submission.answer(question.id).found_by for question in assignment.questions):
+        return f'No answer cells were found: there is no sheet "{ANSWERS}" with our questions.'
+    return f'No question is answered: the coloured cells of the sheet "{ANSWERS}" are empty.'
 
 
 def _reasons(submission: Submission, assignment: Assignment, findings: Iterable[Finding]) -> Iterator[str]:
@@ -134,6 +149,7 @@ def _reasons(submission: Submission, assignment: Assignment, findings: Iterable[
     if submission.assignment_id != assignment.id:
         yield f"The workbook says that it belongs to {submission.assignment_id[:40]!r}."
     yield from (_FLAGS[flag] for flag in submission.flags if flag in _FLAGS)
-    unsure = dict.fromkeys(f.question_id for f in findings if f.outcome is Outcome.UNSURE)
+    symbols = {question.id: symbol_text(question.symbol) for question in assignment.questions}
+    unsure = dict.fromkeys(symbols.get(f.question_id, f.question_id) for f in findings if f.outcome is Outcome.UNSURE)
     if unsure:
-        yield f"Unsure about {', '.join(unsure)}."
+        yield f"{UNSURE_ABOUT}{', '.join(unsure)}."

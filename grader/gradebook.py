@@ -1,13 +1,14 @@
 """The instructor's book: who has which variant, what is true of it, what came in, what it earned.
 
 A SQLite file in the course folder. Runs, keys and events are only added, never changed: the effective grade is
-what the newest run says.
+what the newest run on the newest attempt says, with what a person decided about that attempt.
 """
 
 from __future__ import annotations
 
 import hashlib
 import json
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any, Self
 
@@ -15,16 +16,19 @@ from sqlalchemy import Engine, insert, select
 
 from assignments import key as keys
 from assignments.course import Course
-from assignments.model import AnswerKey, Variant
+from assignments.model import AnswerKey, Assignment, Variant
 from grader import tables
+from grader.adjust import Adjustment, check_adjustment
 from grader.errors import NoKeyError, UnknownVariantError
 from grader.events import is_whole, note, now
 from grader.ledger import (
     Row,
     Student,
+    add_adjustment,
     add_run,
     effective_rows,
     enrol,
+    newest_attempt,
     open_engine,
     students_of,
     submission_of,
@@ -32,6 +36,7 @@ from grader.ledger import (
 )
 from grader.model import Grade, Submission
 from grader.roster import read_roster
+from vml_course.errors import InputError
 
 __all__ = ["Gradebook", "Row", "Student"]
 
@@ -144,13 +149,36 @@ class Gradebook:
             note(connection, "graded", submission.code, data)
         return attempt
 
+    def adjust(self, assignment: Assignment, pid: str, adjustment: Adjustment) -> Row:
+        """Record what a person decided about the attempt that counts; return the grade that follows.
+
+        Raises
+        ------
+        InputError
+            When nothing of this student was graded, there is no such question, the points are out of range,
+            or no reason is given.
+        """
+        check_adjustment(assignment, adjustment)
+        with self._engine.begin() as connection:
+            at = newest_attempt(connection, assignment.id, pid)
+            if at is None:
+                hint = "See: vml gradebook show."
+                raise InputError(pid, f"a student whose {assignment.id} was graded", "none", hint)
+            add_adjustment(connection, at, adjustment)
+            note(connection, "adjusted", pid, {"assignment": assignment.id, **asdict(adjustment)})
+        return self.row(assignment.id, pid)
+
+    def row(self, assignment_id: str, pid: str) -> Row:
+        """Return the effective grade of one student, who was graded."""
+        return next(row for row in self.rows(assignment_id) if row.student.pid == pid)
+
     def note_unreadable(self, file_sha256: str, reason: str) -> None:
         """Record that a file came in that could not be graded."""
         with self._engine.begin() as connection:
             note(connection, "unreadable", file_sha256, {"reason": reason})
 
     def rows(self, assignment_id: str | None = None) -> tuple[Row, ...]:
-        """Return the effective grades: of each student and assignment the newest run."""
+        """Return the effective grades: of each student and assignment the newest run on the newest attempt."""
         with self._reader.connect() as connection:
             return effective_rows(connection, assignment_id)
 

@@ -7,8 +7,10 @@ show in the velocities or in the tracking table.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 
 from assignments.mistakes import MISTAKES
+from grader.model import Diagnosis, Finding
 
 KINEMATIC: Mapping[str, str] = {
     "K1": "not calibrated: still in pixels",
@@ -30,6 +32,7 @@ KINEMATIC: Mapping[str, str] = {
     "K9c": "degrees converted twice",
     "K10": "y axis pointing down",
     "K11": "time shifted by some frames",
+    "K12": "another length than L as the arm",
 }
 
 HINTS: Mapping[str, str] = {
@@ -105,6 +108,7 @@ HINTS: Mapping[str, str] = {
     "K9c": "It looks as if radians were converted from degrees twice.",
     "K10": "The y axis of your table points down. Pixels count downwards; the world's y points up.",
     "K11": "Your table is shifted in time. Which frame is frame 0?",
+    "K12": "Foot speed and I fit another arm than L. Use the L of your handout, in metres.",
 }
 
 
@@ -119,3 +123,58 @@ def hint_for(codes: Iterable[str]) -> str:
     if len(codes) == 1:
         return HINTS.get(codes[0], f"Your value fits this slip: {about(codes[0])}. Check that step.")
     return f"Your numbers fit more than one slip; check each: {'; '.join(about(code) for code in codes)}."
+
+
+# ---------------------------------------------------------------- one hint for one cause
+
+# A wrong scale shows in the scale's own cell, in all velocities and in the table, under different names.
+_SCALE = frozenset({"K1", "K1b", "K3", "K4", "K4b", "K5", "K5b", "K7"})
+_RATE = frozenset({"K2", "K8"})
+_AT_SOURCE = frozenset({"px_per_m", "fps"})
+
+SOURCE_HINTS: Mapping[str, str] = {
+    "K1": "A scale of 1 px/m leaves everything in pixels. Measure the known length in pixels, divide by its metres.",
+    "K1b": "The scale looks turned over: pixels in one metre are asked, not metres in one pixel.",
+    "K2": "This is the rate of a player. The rate of the recording stands in your handout.",
+    "K3": "The scale looks as if the known length were in feet. Use metres.",
+    "K4": "The scale looks as if the known length were in centimetres. Use metres.",
+    "K4b": "The scale looks as if the known length were in millimetres. Use metres.",
+    "K5": "The scale is twice too large. Was the known length taken half as long, or twice as many pixels counted?",
+    "K5b": "The scale is half as large as it should be. Were only half of the pixels counted, or the length doubled?",
+}
+"""What is said where the wrong cell is the scale or the frame rate itself."""
+
+
+def with_marks(diagnosis: Iterable[Diagnosis], findings: Iterable[Finding]) -> tuple[Diagnosis, ...]:
+    """Add a hint for each mistake that a single finding tells of, such as a scale turned over."""
+    diagnosis = tuple(diagnosis)
+    known = {(code, id_) for d in diagnosis for code in d.codes for id_ in d.ids}
+    marks = [f for f in findings if f.mistake and (f.mistake, f.question_id) not in known]
+    return (*(_mark(finding) for finding in marks), *diagnosis)
+
+
+def _mark(finding: Finding) -> Diagnosis:
+    code, at = finding.mistake, finding.question_id
+    hint = SOURCE_HINTS.get(code, "") if at in _AT_SOURCE else ""
+    return Diagnosis(at, (code,), hint or hint_for((code,)), "truth", (at,))
+
+
+def one_hint_a_cause(diagnosis: Iterable[Diagnosis]) -> tuple[Diagnosis, ...]:
+    """Join what tells of one cause: the first hint stays, and names all cells that show it."""
+    joined: dict[str, Diagnosis] = {}
+    for item in diagnosis:
+        cause = _cause(item)
+        first = joined.get(cause, replace(item, ids=()))
+        codes = first.codes if first.is_unique else item.codes
+        joined[cause] = replace(first, codes=codes, ids=tuple(dict.fromkeys((*first.ids, *item.ids))))
+    return tuple(joined.values())
+
+
+def _cause(item: Diagnosis) -> str:
+    """Name the cause: a slip of the scale is one, wherever it shows; a group that cannot be told apart is its own."""
+    codes = set(item.codes)
+    if "omega1" in item.ids and not codes <= _RATE:
+        return f"omega {' '.join(item.codes)}"
+    if codes <= _SCALE:
+        return "scale"
+    return "rate" if codes <= _RATE else " ".join(item.codes)

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from assignments.mistakes import ImpactNumbers
+from grader.arm import CODE as ARM
+from grader.arm import with_arm
 from grader.model import Asked, Factor, Finding, Outcome
 from grader.own import OwnNumbers, own_numbers
 from grader.stated import Stated, Unstated, state
@@ -151,12 +153,28 @@ def judge_concluded(asked: Asked, formula: Callable[[ImpactNumbers], float]) -> 
     if isinstance(stated, Unstated):
         return (_unstated(asked, stated),)
     has_unit = question.dimension != "number"
-    ways = own_numbers(asked.submission, asked.key, asked.questions)
+    ways = _ways(asked)
     formula_finding = _formula(asked, stated, ways, formula)
     share = 1.0 - _FORMULA_SHARE - (_UNIT_SHARE if has_unit else 0.0)
-    follows = formula_finding.outcome is Outcome.RIGHT and _is_gated_in(ways, formula)
+    follows = formula_finding.outcome is Outcome.RIGHT and _is_gated_in(asked, ways, formula)
     value = _concluded_value(asked, stated, question.points * share, follows=follows)
+    if formula_finding.outcome is Outcome.RIGHT and not follows and value.outcome is Outcome.WRONG:
+        value = replace(value, message=f"{value.message} {_NOT_FOLLOWED}")
     return (*((_unit(asked, stated),) if has_unit else ()), formula_finding, value)
+
+
+_NOT_FOLLOWED = "It follows from your numbers, but they describe no possible impact, so it counts here too."
+
+
+def _ways(asked: Asked) -> tuple[OwnNumbers, ...]:
+    """Return the student's own numbers; with the arm that they worked with, where that is another than L."""
+    ways = own_numbers(asked.submission, asked.key, asked.questions)
+    arm = _arm_of(asked)
+    return ways if arm is None else (*(with_arm(way, arm) for way in ways[:1]), *ways)
+
+
+def _arm_of(asked: Asked) -> Factor | None:
+    return next((factor for factor in asked.factors if factor.codes == (ARM,)), None)
 
 
 def _formula(
@@ -194,12 +212,16 @@ def follows_from(stated: Stated, way: OwnNumbers, formula: Callable[[ImpactNumbe
     return abs(stated.value - expected) <= half_width
 
 
-def _is_gated_in(ways: tuple[OwnNumbers, ...], formula: Callable[[ImpactNumbers], float]) -> bool:
-    """Tell whether the own numbers are a possible impact: a trivial one must not make the rest easy."""
+def _is_gated_in(asked: Asked, ways: tuple[OwnNumbers, ...], formula: Callable[[ImpactNumbers], float]) -> bool:
+    """Tell whether the own numbers are a possible impact: a trivial one must not make the rest easy.
+
+    Where one wrong arm explains them, their e may be anything: half of L alone can lift it over 2.
+    """
     n = ways[0].numbers
     moved = abs(n.omega1 - n.omega2) > 0.01 * abs(n.omega1) and n.u1 != n.u2 and n.v1 != n.v2
-    value = ways[0].value(formula)
-    return moved and value > 0 and 0 < ways[0].value(lambda numbers: numbers.e) <= 1.2
+    if _arm_of(asked) is not None:
+        return moved
+    return moved and ways[0].value(formula) > 0 and 0 < ways[0].value(lambda numbers: numbers.e) <= 1.2
 
 
 def _concluded_value(asked: Asked, stated: Stated, points: float, *, follows: bool) -> Finding:
@@ -214,4 +236,6 @@ def _concluded_value(asked: Asked, stated: Stated, points: float, *, follows: bo
 def _builds_on_an_error(asked: Asked) -> bool:
     """Tell whether a number that this one needs was found wrong, or right but for a common factor."""
     factored = {question_id for factor in asked.factors for question_id in factor.ids}
+    if _arm_of(asked) is not None:  # the arm is in e by the foot's speed, and in I by itself
+        return True
     return bool(set(asked.question.needs) & (asked.charged | factored))

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import json
+import os
 import secrets
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, fields, replace
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +15,7 @@ from sqlalchemy import event as engine_event
 
 from assignments.model import Variant
 from grader import tables
+from grader.adjust import Adjustment, Standing, settle
 from grader.errors import UnknownVariantError
 from grader.events import note, now
 from grader.grade import GRADER_VERSION
@@ -45,6 +47,10 @@ class Row:
         Codes that alone explained something.
     reasons : tuple of str
         Why a person should look.
+    attempts : int
+        How many different contents came in; the newest counts.
+    adjustments : tuple of str
+        What a person decided, in words.
     """
 
     student: Student
@@ -57,10 +63,18 @@ class Row:
     outcomes: Mapping[str, Outcome] = field(default_factory=dict)
     mistakes: tuple[str, ...] = ()
     reasons: tuple[str, ...] = ()
+    attempts: int = 1
+    adjustments: tuple[str, ...] = ()
+
+    @property
+    def is_provisional(self) -> bool:
+        """Whether points are counted that a person has still to confirm."""
+        return Outcome.UNSURE in self.outcomes.values()
 
 
 def open_engine(path: Path) -> Engine:
-    """Open the database file: write-ahead log, foreign keys on, patient with other writers."""
+    """Open the database file: only for its owner, write-ahead log, foreign keys on, patient with other writers."""
+    _keep_private(path)
     engine = create_engine(f"sqlite:///{path}", connect_args={"timeout": 10})
 
     @engine_event.listens_for(engine, "connect")
@@ -76,6 +90,15 @@ def open_engine(path: Path) -> Engine:
         connection.exec_driver_sql("BEGIN" if reads else "BEGIN IMMEDIATE")
 
     return engine
+
+
+def _keep_private(path: Path) -> None:
+    """Names and answers lie in it: nobody else may read it, not even for a moment."""
+    if not path.parent.is_dir():
+        return
+    os.close(os.open(path, os.O_RDWR | os.O_CREAT, 0o600))
+    if path.stat().st_mode & 0o077:
+        path.chmod(0o600)
 
 
 def enrol(connection: Connection, person: Enrolled) -> Student:
@@ -186,7 +209,10 @@ def add_run(connection: Connection, submission_id: int, code: str, grade: Grade)
 
 
 def effective_rows(connection: Connection, assignment_id: str | None) -> tuple[Row, ...]:
-    """Return of each student and assignment what the newest run says."""
+    """Return of each student and assignment what the newest run on the newest attempt says.
+
+    Attempts are as old as the first arrival of their content, so an old file that is graded again stays old.
+    """
     joined = tables.grade_run.join(tables.submission).join(tables.variant).join(tables.assignment)
     wanted = select(
         tables.grade_run, tables.submission.c.attempt, tables.assignment.c.slug, tables.variant.c.student_id
@@ -194,10 +220,22 @@ def effective_rows(connection: Connection, assignment_id: str | None) -> tuple[R
     if assignment_id is not None:
         wanted = wanted.where(tables.assignment.c.slug == assignment_id)
     newest: dict[tuple[str, int], Any] = {}
-    for row in connection.execute(wanted.order_by(tables.grade_run.c.id)).mappings():
-        newest[row["slug"], row["student_id"]] = row
+    attempts: dict[tuple[str, int], set[int]] = {}
+    for row in connection.execute(wanted.order_by(tables.submission.c.id, tables.grade_run.c.id)).mappings():
+        whose = (row["slug"], row["student_id"])
+        newest[whose] = row
+        attempts.setdefault(whose, set()).add(row["submission_id"])
     people = students_of(connection)
-    return tuple(_row(connection, people[student], run) for (_, student), run in sorted(newest.items()))
+    rows = (replace(_row(connection, people[w[1]], newest[w]), attempts=len(attempts[w])) for w in sorted(newest))
+    return tuple(rows)
+
+
+def newest_attempt(connection: Connection, assignment_id: str, pid: str) -> int | None:
+    """Return the id of the attempt that counts, None when nothing was graded."""
+    joined = tables.grade_run.join(tables.submission).join(tables.variant).join(tables.assignment).join(tables.student)
+    mine = (tables.assignment.c.slug == assignment_id) & (tables.student.c.pid == pid)
+    found = connection.scalar(select(func.max(tables.submission.c.id)).select_from(joined).where(mine))
+    return None if found is None else int(found)
 
 
 def _row(connection: Connection, student: Student, run: Mapping[str, Any]) -> Row:
@@ -208,7 +246,7 @@ def _row(connection: Connection, student: Student, run: Mapping[str, Any]) -> Ro
     ]
     for score in connection.execute(select(scores).where(scores.c.grade_run_id == run["id"])).mappings():
         by_question.setdefault(score["question"], []).append(score)
-    return Row(
+    row = Row(
         student=student,
         assignment_id=run["slug"],
         attempt=run["attempt"],
@@ -220,6 +258,36 @@ def _row(connection: Connection, student: Student, run: Mapping[str, Any]) -> Ro
         mistakes=tuple(dict.fromkeys(mistakes)),
         reasons=tuple(json.loads(run["result_json"])["reasons"]),
     )
+    worth = {
+        question: (sum(score["points"] for score in found), sum(score["out_of"] for score in found))
+        for question, found in by_question.items()
+    }
+    return _settled(row, worth, adjustments_of(connection, run["submission_id"]))
+
+
+def _settled(row: Row, worth: Mapping[str, tuple[float, float]], adjustments: Sequence[Adjustment]) -> Row:
+    """Apply what a person decided; nothing is changed where nobody did."""
+    if not adjustments:
+        return row
+    now_ = settle(Standing(row.points, worth, row.outcomes, row.reasons), adjustments)
+    status = row.status if now_.reasons else "ok"
+    words = tuple(map(str, adjustments))
+    return replace(
+        row, points=now_.points, outcomes=now_.outcomes, reasons=now_.reasons, status=status, adjustments=words
+    )
+
+
+def adjustments_of(connection: Connection, submission_id: int) -> tuple[Adjustment, ...]:
+    """Return what a person decided about an attempt, oldest first."""
+    table = tables.adjustment
+    wanted = select(table).where(table.c.submission_id == submission_id).order_by(table.c.id)
+    names = [one.name for one in fields(Adjustment)]
+    return tuple(Adjustment(**{n: row[n] for n in names}) for row in connection.execute(wanted).mappings())
+
+
+def add_adjustment(connection: Connection, submission_id: int, adjustment: Adjustment) -> None:
+    """Add what a person decided."""
+    _add(connection, tables.adjustment, {"submission_id": submission_id, **asdict(adjustment)})
 
 
 def _overall(scores: Sequence[Any]) -> Outcome:

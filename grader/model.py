@@ -41,6 +41,8 @@ class Answer:
         Sheet and address, such as `Answers!C7`.
     found_by : str
         `name`, `label` or `address`: how the cell was found; "" when it was not.
+    read_as : str
+        The text with the decimal point meant, where only one of two readings is plausible.
     """
 
     kind: Kind = Kind.BLANK
@@ -49,6 +51,7 @@ class Answer:
     unit_text: str = ""
     where: str = ""
     found_by: str = ""
+    read_as: str = ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,6 +102,9 @@ class Outcome(StrEnum):
     WRONG = "wrong"
     UNSURE = "unsure"
 
+
+UNSURE_ABOUT = "Unsure about "
+"""How the reason begins that names unsure questions."""
 
 _SEVERITY = (Outcome.UNSURE, Outcome.WRONG, Outcome.PARTIAL, Outcome.RIGHT)
 
@@ -157,12 +163,15 @@ class Diagnosis:
         What the student reads.
     basis : str
         `own` (from the student's own numbers) or `truth`.
+    ids : tuple of str
+        The questions whose cells carry it, `tracking` for the table.
     """
 
     subject: str
     codes: tuple[str, ...]
     hint: str
     basis: str
+    ids: tuple[str, ...] = ()
 
     @property
     def is_unique(self) -> bool:
@@ -174,7 +183,7 @@ class Diagnosis:
 class Grade:
     """The result of one submission; a pure function of submission, key and assignment.
 
-    `status` is `ok`, or `review` when a person should look.
+    `status` is `ok`, `review` when a person should look, or `empty` when no question was answered.
     """
 
     findings: tuple[Finding, ...]
@@ -183,6 +192,11 @@ class Grade:
     status: str
     diagnosis: tuple[Diagnosis, ...] = ()
     reasons: tuple[str, ...] = ()
+
+    @property
+    def is_provisional(self) -> bool:
+        """Whether points are counted that a person has still to confirm."""
+        return any(finding.outcome is Outcome.UNSURE and finding.out_of > 0 for finding in self.findings)
 
     def of(self, question_id: str) -> tuple[Finding, ...]:
         """Return the findings of one question, in the order they were made."""

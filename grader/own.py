@@ -39,6 +39,10 @@ class OwnNumbers:
         total = math.hypot(*(move for move in moves if math.isfinite(move)))
         return min(total, _LARGEST_ROUNDING * abs(value))
 
+    def with_arm(self, length: float) -> OwnNumbers:
+        """Return the same velocities on another arm, in metres."""
+        return replace(self, numbers=replace(self.numbers, L=length))
+
 
 def _after(formula: Formula, numbers: ImpactNumbers) -> Formula:
     return lambda _: formula(numbers)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -50,10 +51,27 @@ def _enrolled(name: str, text: str) -> tuple[Enrolled, ...]:
     columns = {(column or "").strip().lower(): column for column in rows.fieldnames or ()}
     if not {"name", "email"} <= columns.keys():
         raise RosterError(name, "the columns name,email", ", ".join(columns) or "an empty file")
-    found = [
-        Enrolled(" ".join((row[columns["name"]] or "").split()), (row[columns["email"]] or "").strip()) for row in rows
-    ]
-    return _distinct(name, [student for student in found if student.name or student.email])
+    found = []
+    for row in rows:
+        cells = {column: (row[columns[column]] or "").strip() for column in ("name", "email")}
+        _check_row(f"{name}, line {rows.line_num}", cells, row.get(None))
+        if any(cells.values()):
+            found.append(Enrolled(" ".join(cells["name"].split()), cells["email"]))
+    if not found:
+        raise RosterError(name, "at least one student", "the columns only", "Write one line for each: name,email.")
+    return _distinct(name, found)
+
+
+def _check_row(where: str, cells: Mapping[str, str], beyond: object) -> None:
+    """Refuse a line without a name, and one with more cells than columns: a name with a comma was not quoted."""
+    if isinstance(beyond, list) and any(beyond):
+        hint = 'Put a name that holds a comma in quotes: "Doe, Jane",jane@example.org'
+        raise RosterError(where, "as many cells as columns", "more", hint)
+    if cells["email"] and not cells["name"]:
+        raise RosterError(where, "a name", f"only {cells['email'][:60]!r}")
+    if cells["email"] and "@" not in cells["email"]:
+        hint = "Does the name hold a comma? Put it in quotes."
+        raise RosterError(where, "an e-mail address", repr(cells["email"][:60]), hint)
 
 
 def _distinct(name: str, students: list[Enrolled]) -> tuple[Enrolled, ...]:

@@ -84,39 +84,40 @@ _NOTHING = {Kind.BLANK: _blank, Kind.BOOL: _bool, Kind.ERROR: _error, Kind.UNCAC
 
 def _from_typed_text(answer: Answer, question: Question) -> Stated | Unstated:
     """Read typed text: a unit behind the number wins over the unit cell."""
+    text = answer.read_as or answer.text
     try:
-        read_number(answer.text)
+        read_number(text)
     except InputError:
-        return _from_text(answer, answer.text, question)
-    return _from_text(answer, f"{answer.text} {answer.unit_text}", question)
+        return _from_text(answer, text, question)
+    return _from_text(answer, f"{text} {answer.unit_text}", question)
 
 
 def _from_text(answer: Answer, text: str, question: Question) -> Stated | Unstated:
     try:
         reading = read_quantity(text, question.dimension, question.unit, name=question.label)
     except UncalibratedUnitError:
-        return _in_pixels(answer, text)
+        return _in_pixels(text)
     except AmbiguousNumberError as error:
         return Unstated(Outcome.UNSURE, f"'{answer.text}' can be read in two ways. {error.hint}".strip())
     except InputError as error:
-        return _unreadable(answer, error)
-    shown = answer.text if text.strip() == answer.text else f"{answer.text} {reading.unit}".strip()
+        return _unreadable(error)
+    written = answer.read_as or answer.text
+    shown = written if text.strip() == written else f"{written} {reading.unit}".strip()
     return Stated(reading.value, _half_unit(text, reading, question), shown, not reading.unit_assumed)
 
 
-def _in_pixels(answer: Answer, text: str) -> Stated | Unstated:
+def _in_pixels(text: str) -> Stated | Unstated:
     number = re.match(r"[^A-Za-zµμ]*", text.strip())
     try:
         value = read_number(number.group() if number else "")
     except InputError as error:
-        return _unreadable(answer, error)
+        return _unreadable(error)
     return Stated(value, 0.0, text.strip(), unit_given=True, in_pixels=True)
 
 
-def _unreadable(answer: Answer, error: InputError) -> Unstated:
-    """Judge a text that is no quantity: one with digits may mean something to a person."""
-    outcome = Outcome.UNSURE if any(character.isdigit() for character in answer.text) else Outcome.WRONG
-    return Unstated(outcome, f"Expected {error.expected}, got {error.got}.")
+def _unreadable(error: InputError) -> Unstated:
+    """Leave every text that is no quantity to a person: it may mean something."""
+    return Unstated(Outcome.UNSURE, f"Expected {error.expected}, got {error.got}. A person will look at it.")
 
 
 def _half_unit(text: str, reading: Reading, question: Question) -> float:

@@ -103,6 +103,19 @@ criterion_score = Table(
     _text("detail_json"),
 )
 
+adjustment = Table(
+    "adjustment",
+    metadata,
+    _id(),
+    _to("submission"),  # a newer attempt is judged anew
+    Column("question", String(80), nullable=False),  # or `total`
+    Column("points", Float, nullable=False),
+    _text("reason"),
+    _text("who"),
+    _text("at"),
+)
+"""What a person decided about an attempt; only ever added to, the newest counts."""
+
 event = Table(
     "event",
     metadata,

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import hashlib
 import hmac
+from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from assignments.course import Course
@@ -13,18 +14,19 @@ from assignments.load import load_assignment
 from assignments.model import AnswerKey, Assignment
 from assignments.usecases import HandedOut, hand_out
 from assignments.variants import signature_of
+from grader.adjust import Adjustment
 from grader.errors import UnknownVariantError
 from grader.feedback import Report, class_page, feedback_page
 from grader.grade import grade
-from grader.gradebook import Gradebook, Student
+from grader.gradebook import Gradebook, Row, Student
 from grader.inbox import receive
-from grader.model import Kind, Submission
+from grader.model import Submission
+from grader.plausible import settle_readings
 from grader.read import ReadRequest, claims_of, find_submission, read_workbook
 from grader.read.locate import Claims
-from grader.stated import Unstated, state
 from grader.template import template_cells
-from vml_course.errors import InputError, VmlError
-from vml_course.io.files import existing, replacing
+from vml_course.errors import FileMissingError, InputError, VmlError
+from vml_course.io.files import replacing
 
 FEEDBACK = "feedback"
 Progress = Callable[[int, int], None]
@@ -38,9 +40,11 @@ class Graded:
     ----------
     file : Path
     status : str
-        `ok`, `review` (a person should look) or `unreadable` (nothing was graded).
+        `ok`, `review` (a person should look), `empty` (nothing was answered) or `unreadable` (nothing was graded).
     message : str
-        Why, in one line; "" when ok.
+        Why, in one line, and whether other files of the student came with it; "" when there is nothing to say.
+    is_provisional : bool
+        Whether points are counted that a person has still to confirm.
     """
 
     file: Path
@@ -51,6 +55,7 @@ class Graded:
     attempt: int = 0
     points: float = 0.0
     out_of: float = 0.0
+    is_provisional: bool = False
     feedback: Path | None = None
 
     @property
@@ -60,11 +65,13 @@ class Graded:
 
 
 def grade_files(
-    course: Course, files: Iterable[Path], *, show_truth: bool = True, progress: Progress | None = None
+    course: Course, files: Iterable[Path], *, show_truth: bool = False, progress: Progress | None = None
 ) -> list[Graded]:
     """Grade files, record what they earned, write a page for each student and one for the class.
 
-    A file that cannot be graded gets a status and a polite reason; it never stops the others.
+    A file that cannot be graded gets a status and a polite reason; it never stops the others. The newest attempt
+    counts: attempts are as old as the first arrival of their content, and the files of one batch are taken in the
+    order in which they were last changed.
 
     Parameters
     ----------
@@ -72,33 +79,77 @@ def grade_files(
     files : iterable of Path
         Files, or folders, of which every file is taken.
     show_truth : bool
-        Whether the students' pages show true values and curves.
+        Whether the students' pages show true values and curves, as after the due date.
     progress : callable, optional
         `(files done, files in all)`.
+
+    Returns
+    -------
+    list of Graded
+        In the order in which the files were named.
+
+    Raises
+    ------
+    FileMissingError
+        When none of the files exists.
     """
-    listed = _listed(files)
-    graded: list[Graded] = []
+    listed = listed_files(files)
+    graded: dict[Path, Graded] = {}
     with Gradebook.open(course) as gradebook:
-        for done, file in enumerate(listed, start=1):
-            graded.append(_grade_one(course, gradebook, file, show_truth=show_truth))
+        for done, file in enumerate(sorted(listed, key=_changed), start=1):
+            graded[file] = _grade_one(course, gradebook, file, show_truth=show_truth)
             if progress is not None:
                 progress(done, len(listed))
-        unreadable = [(item.file.name, item.message) for item in graded if item.status == "unreadable"]
-        for assignment_id in dict.fromkeys(item.assignment_id for item in graded if item.assignment_id):
-            page = class_page(load_assignment(assignment_id), gradebook.rows(assignment_id), unreadable)
-            _write(course.folder / FEEDBACK / assignment_id / "class.html", page)
-    return graded
+        result = _with_siblings([graded[file] for file in listed])
+        unreadable = [(item.file.name, item.message) for item in result if item.status == "unreadable"]
+        for assignment_id in dict.fromkeys(item.assignment_id for item in result if item.assignment_id):
+            write_class_page(course, gradebook, load_assignment(assignment_id), unreadable)
+    return result
 
 
-def _listed(files: Iterable[Path]) -> list[Path]:
-    listed = []
-    for path in map(Path, files):
+def write_class_page(
+    course: Course, gradebook: Gradebook, assignment: Assignment, unreadable: Sequence[tuple[str, str]] = ()
+) -> Path:
+    """Write the instructor's page of an assignment from the gradebook; return where it is."""
+    path = course.folder / FEEDBACK / assignment.id / "class.html"
+    rows, students = gradebook.rows(assignment.id), gradebook.students()
+    _write(path, class_page(assignment, rows, unreadable, students))
+    return path
+
+
+def _changed(file: Path) -> float:
+    return file.stat().st_mtime if file.exists() else 0.0
+
+
+def _with_siblings(graded: Sequence[Graded]) -> list[Graded]:
+    """Say so where several files of one student came in together."""
+    count = Counter((item.pid, item.assignment_id) for item in graded if item.pid)
+    words = {whose: f"{n} files of this student, the newest counts." for whose, n in count.items() if n > 1}
+    said = [(item, words.get((item.pid, item.assignment_id), "")) for item in graded]
+    return [replace(item, message=f"{item.message} {more}".strip()) if more else item for item, more in said]
+
+
+def listed_files(files: Iterable[Path]) -> list[Path]:
+    """Return the files that are meant, each once: folders stand for what lies in them.
+
+    Raises
+    ------
+    FileMissingError
+        When none of them exists.
+    """
+    files, listed = [Path(file) for file in files], list[Path]()
+    for path in files:
         inside = (
             sorted(p for p in path.iterdir() if p.is_file() and not p.name.startswith((".", "~$")))
             if path.is_dir()
             else [path]
         )
         listed += inside
+    if not any(file.exists() for file in listed):
+        first = files[0] if files else Path()
+        is_folder = first.is_dir()
+        expected = "a folder with workbooks in it" if is_folder else "an existing file or folder"
+        raise FileMissingError(str(first), expected, "an empty folder" if is_folder else "no such file")
     return list(dict.fromkeys(listed))
 
 
@@ -112,10 +163,13 @@ def _grade_one(course: Course, gradebook: Gradebook, file: Path, *, show_truth: 
     except VmlError as error:
         gradebook.note_unreadable(hashlib.sha256(data).hexdigest(), str(error))
         return Graded(file, "unreadable", str(error))
+    submission = settle_readings(submission, {q.id: q for q in assignment.questions}, key.values)
     result = grade(submission, key, assignment)
     attempt = gradebook.record_run(submission, result)
     page = course.folder / FEEDBACK / assignment.id / f"{key.student}.html"
-    _write(page, feedback_page(Report(assignment, submission, key, result, attempt, show_truth)))
+    row = gradebook.row(assignment.id, key.student)
+    if row.attempt == attempt:  # an old file that is graded again must not take the place of a newer one's page
+        _write(page, feedback_page(Report(assignment, submission, key, result, attempt, show_truth, row.adjustments)))
     return Graded(
         file=file,
         status=result.status,
@@ -125,6 +179,7 @@ def _grade_one(course: Course, gradebook: Gradebook, file: Path, *, show_truth: 
         attempt=attempt,
         points=result.points,
         out_of=result.out_of,
+        is_provisional=result.is_provisional,
         feedback=page,
     )
 
@@ -151,63 +206,18 @@ def _write(path: Path, text: str) -> None:
         temporary.write_text(text, encoding="utf-8", newline="\n")
 
 
-# ---------------------------------------------------------------- a student's own check
-
-
-@dataclass(frozen=True)
-class Checked:
-    """One answer of a workbook, looked at for form only.
-
-    `status` is `read`, `no unit`, `empty` or `unclear`; `says` is what was read, or why nothing was.
-    """
-
-    question_id: str
-    label: str
-    status: str
-    says: str
-    where: str
-
-
-@dataclass(frozen=True)
-class CheckResult:
-    """What a workbook's form is like; nothing is compared with any truth."""
-
-    assignment_id: str
-    answers: tuple[Checked, ...]
-    tracking_rows: int
-    flags: tuple[str, ...]
-
-    @property
-    def is_complete(self) -> bool:
-        """Whether every answer can be read with its unit, and there is a tracking table."""
-        return self.tracking_rows > 0 and all(answer.status == "read" for answer in self.answers)
-
-
-def check_workbook(file: Path) -> CheckResult:
-    """Look at a workbook as the grader will, for format and completeness only.
+def set_points(course: Course, assignment_id: str, pid: str, adjustment: Adjustment) -> Row:
+    """Record what a person decided, and write the class page anew; return the grade that follows.
 
     Raises
     ------
-    FileMissingError, UnreadableError, UnknownNameError
+    InputError, UnknownNameError
     """
-    book = read_workbook(ReadRequest(file.name, existing(file).read_bytes()))
-    assignment = load_assignment(claims_of(book).assignment_id)
-    submission = find_submission(book, assignment.questions, template_cells(assignment))
-    rows = max((len(column) for column in submission.tracking.values()), default=0)
-    return CheckResult(assignment.id, tuple(_checked(submission, assignment)), rows, submission.flags)
-
-
-def _checked(submission: Submission, assignment: Assignment) -> Iterable[Checked]:
-    for question in assignment.questions:
-        answer = submission.answer(question.id)
-        stated = state(answer, question)
-        if isinstance(stated, Unstated):
-            status = "empty" if answer.kind is Kind.BLANK else "unclear"
-            says = stated.reason
-        else:
-            needs_unit = question.dimension != "number" and (not stated.unit_given or stated.in_pixels)
-            status, says = ("no unit" if needs_unit else "read"), stated.text
-        yield Checked(question.id, question.label, status, says, answer.where)
+    assignment = load_assignment(assignment_id)
+    with Gradebook.open(course) as gradebook:
+        row = gradebook.adjust(assignment, pid, adjustment)
+        write_class_page(course, gradebook, assignment)
+    return row
 
 
 # ---------------------------------------------------------------- hand out

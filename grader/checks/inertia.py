@@ -9,6 +9,7 @@ from grader.model import Asked, Finding
 def inertia(asked: Asked) -> tuple[Finding, ...]:
     """Work it out again from the velocities that you wrote: half of the points are for the formula.
 
-    When your formula is right and a velocity is not, that error is counted at the velocity and costs nothing here.
+    When your formula is right and a velocity is not, that error is counted at the velocity and costs nothing here,
+    as long as your velocities describe a possible impact: the leg slows down, and e lies between 0 and 1.2.
     """
     return judge_concluded(asked, lambda numbers: numbers.I)

@@ -44,7 +44,7 @@ def _slips(fit: TrajectoryFit, px_per_m: float) -> Iterator[tuple[str, str]]:
     if abs(fit.scale_ratio - 1) > 0.02:
         yield (
             _scale_slip(fit.scale_ratio, px_per_m),
-            f"Its lengths are {fit.scale_ratio:.3g} times the true ones: check the calibration.",
+            "Its lengths are not the true ones: check the calibration.",
         )
     if abs(fit.lag_frames) > 0.3:
         yield "K11", f"It is {abs(fit.lag_frames):.1f} frames {'late' if fit.lag_frames > 0 else 'early'}."

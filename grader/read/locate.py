@@ -84,10 +84,10 @@ def find_submission(book: Book, questions: Iterable[Question], template: Mapping
 
 def _answer(book: Book, question: Question, address: str) -> Answer:
     named = _by_reference(book, book.names.get(f"ans_{question.id}".lower(), ""))
-    if named is not None:
+    labelled = _by_label(book, question)
+    if named is not None and not (labelled is not None and _has_shifted(*named, question, labelled)):
         unit = _by_reference(book, book.names.get(f"unit_{question.id}".lower(), ""))
         return _made(*named, unit[0].at(unit[1]) if unit else None, "name")
-    labelled = _by_label(book, question)
     if labelled is not None:
         return labelled
     templated = _by_reference(book, address)
@@ -95,6 +95,18 @@ def _answer(book: Book, question: Question, address: str) -> Answer:
         sheet, (row, column) = templated
         return _made(sheet, (row, column), sheet.at((row, column + 1)), "address")
     return Answer()
+
+
+def _has_shifted(sheet: Sheet, place: Place, question: Question, labelled: Answer) -> bool:
+    """Tell whether a row was inserted and the name stayed behind: the label stands in another row, with its answer.
+
+    A name whose row carries the label is right; so is one whose cell was moved by hand, away from an empty place.
+    """
+    wanted = {_plain(text) for text in (question.label, question.symbol, question.id) if text}
+    beside = [_plain(sheet.at((place[0], column)).text) for column in range(1, place[1])]
+    if wanted & set(beside) or labelled.where == f"{sheet.name}!{address_of(place)}":
+        return False
+    return labelled.kind is not Kind.BLANK or any(beside)
 
 
 def _made(sheet: Sheet, place: Place, unit: BookCell | None, found_by: str) -> Answer:
@@ -134,11 +146,14 @@ def _by_label(book: Book, question: Question) -> Answer | None:
 def _beside(sheet: Sheet, label: Place, question: Question) -> Answer:
     row, column = label
     skipped = {_plain(question.symbol), _plain(question.id)}
+    after_symbol = False
     for step in range(1, _LABEL_REACH + 1):
         cell = sheet.at((row, column + step))
         is_symbol = cell.kind is Kind.TEXT and _plain(cell.text) in skipped
-        if cell.kind is not Kind.BLANK and not is_symbol and place_is_new(sheet, (row, column + step), label):
+        is_there = cell.kind is not Kind.BLANK and not is_symbol and place_is_new(sheet, (row, column + step), label)
+        if is_there or after_symbol:  # right of the symbol stands the answer, or nothing: never the unit or the points
             return _made(sheet, (row, column + step), sheet.at((row, column + step + 1)), "label")
+        after_symbol = is_symbol
     return Answer(where=f"{sheet.name}!{address_of((row, column + 1))}", found_by="label")
 
 

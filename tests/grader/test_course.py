@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import html.parser
 import json
+import os
 import re
 import sqlite3
 from concurrent.futures import ThreadPoolExecutor
@@ -21,11 +22,12 @@ from assignments.workbook import fill_workbook, write_workbook
 from grader import usecases
 from grader.errors import NoKeyError, RosterError, UnknownVariantError
 from grader.feedback import Report, class_page, feedback_page, verdict
+from grader.form import check_workbook
 from grader.grade import grade
 from grader.gradebook import Gradebook, Row, Student
 from grader.model import Finding, Outcome
 from grader.roster import read_roster
-from grader.usecases import check_workbook, grade_files, hand_out_to
+from grader.usecases import grade_files, hand_out_to
 from vml_course.cli import run
 from vml_course.errors import FileMissingError, InputError
 
@@ -131,6 +133,68 @@ def test_runs_are_added_and_the_newest_counts(room):
     connection.close()
 
 
+def test_an_old_file_graded_again_stays_old(room):
+    first, second = room.workbook(0, "z.xlsx", e=0.1), room.workbook(0, "a.xlsx")
+    grade_files(room.course, [first])
+    grade_files(room.course, [second])
+    (again,) = grade_files(room.course, [first])
+    with Gradebook.open(room.course) as book:
+        (row,) = book.rows()
+    assert (again.attempt, row.attempt, row.points, row.attempts) == (1, 2, TOTAL, 2)
+    assert "attempt 2" in again.feedback.read_text(encoding="utf-8")
+
+
+def test_files_of_one_student_are_taken_in_the_order_of_their_change(room):
+    newest, oldest = room.workbook(0, "a.xlsx"), room.workbook(0, "z.xlsx", e=0.1)
+    os.utime(oldest, (1e9, 1e9))
+    graded = grade_files(room.course, [newest, oldest])
+    assert [(item.file.name, item.attempt) for item in graded] == [("a.xlsx", 2), ("z.xlsx", 1)]
+    assert all("2 files of this student, the newest counts" in item.message for item in graded)
+    page = (room.course.folder / "feedback" / "soccer-kick" / "class.html").read_text(encoding="utf-8")
+    assert "2 files of this student, the newest counts" in page
+    assert "Nothing handed in (2): Ben Example, Chi Example" in page
+
+
+def test_a_person_settles_a_review(room, capsys):
+    grade_files(room.course, [room.workbook(0, e="about 0.6")])
+    course, pid = ["--course", str(room.course.folder)], room.students[0].pid
+    assert run(["gradebook", "show", *course]) == 0
+    assert f"up to {TOTAL:g}" in capsys.readouterr().out
+    call = ["gradebook", "set", pid, "soccer-kick", "e"]
+    assert run([*call, "4.5", "--reason", "0.6 was meant", *course]) == 0
+    with Gradebook.open(room.course) as book:
+        (row,) = book.rows()
+        assert book.is_whole()
+    assert (row.points, row.status, row.reasons, row.outcomes["e"]) == (TOTAL - 1.5, "ok", (), Outcome.PARTIAL)
+    assert "0.6 was meant" in (room.course.folder / "feedback/soccer-kick/class.html").read_text(encoding="utf-8")
+    assert run([*call[:-1], "total", "3", "--reason", "copied", *course]) == 0
+    with Gradebook.open(room.course) as book:
+        assert book.rows()[0].points == 3.0
+    grade_files(room.course, [room.workbook(0, "new.xlsx")])
+    with Gradebook.open(room.course) as book:
+        assert book.rows()[0].points == TOTAL  # a newer attempt is judged anew
+
+
+@pytest.mark.parametrize(
+    ("who", "question", "points", "reason"),
+    [("nobody", "e", "1", "x"), ("", "speed", "1", "x"), ("", "e", "99", "x"), ("", "e", "1", " ")],
+)
+def test_what_cannot_be_set_is_one_line(room, capsys, who, question, points, reason):
+    grade_files(room.course, [room.workbook(0)])
+    call = ["gradebook", "set", who or room.students[0].pid, "soccer-kick", question, points, "--reason", reason]
+    assert run([*call, "--course", str(room.course.folder)]) == 2
+    assert capsys.readouterr().err.count("\n") == 1
+
+
+@pytest.mark.skipif(os.name != "posix", reason="modes of files")
+def test_the_gradebook_is_its_owners_alone(room):
+    file = room.course.folder / "gradebook.db"
+    assert file.stat().st_mode & 0o777 == 0o600
+    file.chmod(0o644)
+    with Gradebook.open(room.course):
+        assert file.stat().st_mode & 0o777 == 0o600
+
+
 def test_a_changed_event_shows(room):
     with sqlite3.connect(room.course.folder / "gradebook.db") as connection:
         connection.execute("update event set data_json = '{}' where id = 4")
@@ -171,7 +235,16 @@ def test_a_roster_in_an_old_encoding_is_read(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("text", "words"), [("", "empty"), ("a,b\n1,2\n", "name,email"), ("name,email\nA,x@y\nB,X@y\n", "twice")]
+    ("text", "words"),
+    [
+        ("", "empty"),
+        ("a,b\n1,2\n", "name,email"),
+        ("name,email\nA,x@y\nB,X@y\n", "twice"),
+        ("name,email\n", "at least one student"),
+        ("name,email\nA,x@y\n,z@y\n", "line 3: expected a name"),
+        ("name,email\nDoe, Jane,x@y\n", "line 2: expected as many cells .* in quotes"),
+        ("name,email,group\nDoe, Jane,x@y\n", "line 2: expected an e-mail address"),
+    ],
 )
 def test_a_roster_that_is_none_is_told(tmp_path, text, words):
     (tmp_path / "r.csv").write_text(text)
@@ -201,7 +274,7 @@ def test_a_batch_is_graded_recorded_and_explained(room):
     assert told == [(1, 3), (2, 3), (3, 3)]
     assert "PDF" in graded[2].message
     page = graded[1].feedback.read_text(encoding="utf-8")
-    assert "looks turned over" in page
+    assert "<b>e</b>: Your e looks turned over" in page
     assert "Ben" not in page
     overview = (room.course.folder / "feedback" / "soccer-kick" / "class.html").read_text(encoding="utf-8")
     assert "Ben Example" in overview
@@ -217,13 +290,15 @@ def test_received_bytes_are_kept_as_they_came(room):
 
 @pytest.mark.parametrize("name", ["missing.xlsx", "."])
 def test_what_cannot_be_read_is_a_status(room, name):
-    if name == ".":
-        empty = room.course.folder / "nothing"
-        empty.mkdir()
-        assert grade_files(room.course, [empty]) == []
-    else:
-        (item,) = grade_files(room.course, [room.course.folder / name])
-        assert (item.status, item.needs_attention) == ("unreadable", True)
+    """One missing file beside a good one is a status; nothing at all is a mistake of the call."""
+    empty = room.course.folder / "nothing"
+    empty.mkdir()
+    missing = empty if name == "." else room.course.folder / name
+    with pytest.raises(FileMissingError, match="expected"):
+        grade_files(room.course, [missing])
+    graded = grade_files(room.course, [room.workbook(0), missing])
+    if name != ".":
+        assert (graded[1].status, graded[1].needs_attention) == ("unreadable", True)
 
 
 def test_another_courses_workbook_is_not_graded(room, tmp_path):
@@ -239,6 +314,34 @@ def test_a_hidden_truth_stays_hidden(room):
     assert "True value" not in page
     assert "<svg" not in page
     assert f"{room.numbers(0).u2:.4g}" not in page
+
+
+def test_the_truth_is_hidden_unless_it_is_asked_for(room, capsys):
+    file, course = str(room.workbook(0)), ["--course", str(room.course.folder)]
+    page = room.course.folder / "feedback" / "soccer-kick" / f"{room.students[0].pid}.html"
+    assert run(["grade", file, *course]) == 0
+    assert "True value" not in page.read_text(encoding="utf-8")
+    assert run(["grade", file, *course, "--show-truth"]) == 0
+    assert "True value" in page.read_text(encoding="utf-8")
+    assert "from 0.xlsx" in capsys.readouterr().out
+
+
+def test_stopping_a_long_run_says_how_to_go_on(room, monkeypatch, capsys):
+    def stopped(*_, **__):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("grader.usecases.hand_out_to", stopped)
+    assert run(["handout", "soccer-kick", "--course", str(room.course.folder)]) == 130
+    assert "run the same command again to continue" in capsys.readouterr().err
+
+
+def test_a_unit_that_was_not_chosen_is_said(room, capsys):
+    file = room.workbook(0)
+    fill_workbook(file, file, {}, {"v_b2": ""})
+    assert run(["check", str(file)]) == 1
+    shown = capsys.readouterr().out
+    assert "choose one in column D" in shown
+    assert "variant code" in shown
 
 
 # ---------------------------------------------------------------- pages
@@ -325,9 +428,11 @@ def test_a_check_sees_form_only(room):
     result = check_workbook(room.workbook(0, e=99.0))
     assert result.is_complete
     assert result.tracking_rows == 60
-    result = check_workbook(room.workbook(0, "b.xlsx", v_b2="", I="1,234", omega1="17 s"))
-    statuses = {answer.question_id: answer.status for answer in result.answers}
-    assert {q: s for q, s in statuses.items() if s != "read"} == {"v_b2": "empty", "I": "unclear", "omega1": "unclear"}
+    result = check_workbook(room.workbook(0, "b.xlsx", v_b2="", px_per_m="1,234", omega1="17 s", I="1,234"))
+    answers = {answer.question_id: answer for answer in result.answers}
+    unread = {q: a.status for q, a in answers.items() if a.status != "read"}
+    assert unread == {"v_b2": "empty", "px_per_m": "unclear", "omega1": "unclear"}
+    assert answers["I"].says == "1,234, read as 1.234 kg m^2"
     assert not result.is_complete
 
 

@@ -176,9 +176,88 @@ def test_a_wrong_value_without_velocities_earns_nothing(desk):
 
 
 def test_an_ambiguous_number_costs_nothing_and_reaches_a_person(desk):
-    result = desk.grade({"v_b1": "1,234"})
+    result = desk.grade({"px_per_m": "1,234.5,6"})
     assert result.points == 20.0
     assert result.status == "review"
+    assert result.is_provisional
+
+
+@pytest.mark.parametrize("text", ["about 0.57", "1e999", "NaN", "?"])
+def test_every_text_that_is_no_number_reaches_a_person(desk, text):
+    result = desk.grade({"e": text})
+    assert (result.points, result.status, result.reasons) == (20.0, "review", ("Unsure about e.",))
+    assert result.is_provisional
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "read_as"),
+    [
+        ("v_b2", "{:.3f}", "."),
+        ("px_per_m", "1,234", "1234"),
+        ("omega1", "20,000", "20.000"),
+        ("v_b1", "1,234", "1.234"),
+    ],
+)
+def test_a_comma_is_read_in_the_one_way_that_is_plausible(desk, name, text, read_as):
+    text = text.format(desk.numbers.u2).replace(".", ",")
+    result = desk.grade({name: text})
+    finding = value_finding(result, name)
+    expected = text.replace(",", ".") if read_as == "." else read_as
+    assert finding.message.startswith(f"Read as {expected}. ")
+    assert finding.outcome is not Outcome.UNSURE
+
+
+def test_a_comma_with_no_plausible_reading_stays_a_question(desk):
+    assert value_finding(desk.grade({"fps": "1,234"}), "fps").message.startswith("Read as 1234")
+    assert value_finding(desk.grade({"omega1": "1,234 rpm"}), "omega1").outcome is not Outcome.RIGHT
+    assert value_finding(desk.grade({"e": "123,456"}), "e").outcome is Outcome.UNSURE
+
+
+def test_a_workbook_without_any_answer_is_empty(desk, kit):
+    blank = desk.grade(dict.fromkeys(desk.truth, ""))
+    assert (blank.status, blank.points) == ("empty", 0.0)
+    nothing = type(kit.submission_of(desk.assignment, {}))("w.xlsx", desk.assignment.id, "CODE1", {}, {})
+    assert grade(nothing, desk.key, desk.assignment).reasons[0].startswith("No answer cells were found")
+
+
+# ---------------------------------------------------------------- another arm than L
+
+
+def with_arm(desk, ratio):
+    """Work rightly, but with another length than L."""
+    n = desk.numbers
+    v1, v2 = n.v1 * ratio, n.v2 * ratio
+    values = {"v_f1": v1, "v_f2": v2, "e": (n.u2 - v2) / v1, "I": n.I * ratio}
+    return {name: float(f"{value:.4g}") for name, value in values.items()}
+
+
+@pytest.mark.parametrize(
+    ("ratio", "words"),
+    [(0.5, "half of L"), (100.0, "L in centimetres"), (0.78, "L − R"), (1.22, "L + R"), (0.9, "m in")],
+)
+def test_another_arm_used_throughout_costs_once_and_is_named(desk, ratio, words):
+    result = desk.grade(with_arm(desk, ratio))
+    assert result.points == pytest.approx(20 - 0.9)
+    (hint,) = [d for d in result.diagnosis if d.codes == ("K12",)]
+    assert words in hint.hint or (words == "m in" and "m instead of L" in hint.hint)
+    assert value_finding(result, "e").carried
+    assert len(result.diagnosis) == 1
+
+
+def test_a_formula_on_impossible_numbers_says_that_it_counts_here_too(desk):
+    changes = {"v_f1": 1.0, "v_f2": 0.5, "omega1": 2.0, "omega2": 1.0, "v_b2": 5.0, "e": 4.5, "I": 1.0}
+    finding = value_finding(desk.grade(changes), "e")
+    assert finding.outcome is Outcome.WRONG
+    assert "counts here too" in finding.message
+
+
+def test_one_cause_has_one_hint_that_names_its_cells(desk, kit):
+    changes = {name: desk.truth[name] / 2 for name in VELOCITIES}
+    table = kit.table_of(kit.trajectory_m(desk.numbers) / 2)
+    result = desk.grade({**changes, "px_per_m": 1000.0, "I": desk.truth["I"] / 2}, tracking=table)
+    (hint,) = result.diagnosis
+    assert {"px_per_m", "v_f1", "v_b2", "tracking"} <= set(hint.ids)
+    assert "scale is twice too large" in hint.hint
 
 
 def test_a_failure_of_ours_costs_nothing(desk, monkeypatch):

@@ -117,6 +117,22 @@ def test_a_lost_reference_falls_back_on_the_label(desk):
     assert desk.read(edited(desk.workbook().read_bytes(), edit)).answer("e").found_by == "label"
 
 
+@pytest.mark.parametrize("keeps_names", [True, False])
+def test_a_row_inserted_by_a_program_that_leaves_names_behind_is_seen_by_the_labels(desk, keeps_names):
+    def edit(book):
+        book["Answers"].insert_rows(9)
+        if not keeps_names:
+            for name in list(book.defined_names):
+                del book.defined_names[name]
+
+    book = read_workbook(ReadRequest("w.xlsx", edited(desk.workbook({"v_b2": ""}).read_bytes(), edit)))
+    submission = find_submission(book, desk.assignment.questions, template_cells(desk.assignment))
+    expected = {**desk.truth, "v_b2": None}
+    assert {name: submission.answer(name).number for name in desk.truth} == expected
+    assert submission.answer("v_b2").kind is Kind.BLANK
+    assert submission.answer("I").unit_text == "kg m^2"
+
+
 def test_two_labels_alike_are_not_guessed_between(desk):
     def edit(book):
         del book.defined_names["ans_e"]
