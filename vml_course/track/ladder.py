@@ -60,6 +60,8 @@ def guesses(reference: Reference, past: Past, expected: FloatArray, luma: Luma, 
     centre = np.concatenate([np.clip(centre[:2], 0.0, [width - 1.0, height - 1.0]), centre[2:]])
     for rung, radius in enumerate(search_radii(near, past.lost), start=3):
         least = rules.zncc_lost if radius <= near else rules.zncc_far
+        if past.lost:  # what comes back looks as it did before; less is a look-alike
+            least = max(least, past.usual_zncc - USUAL_DROP)
         reach = radius + np.abs(expected - centre)[:2].max() + PULL_IN_PX
         for candidate in search(luma, reference.block, offset, centre, radius, ANGLES_RAD)[:REFINED]:
             yield Guess(candidate.pose, PULL_IN_PX, reach, least, rung)
