@@ -16,7 +16,7 @@ import numpy as np
 
 from vml_course.model.arrays import FloatArray
 from vml_course.synth.shake import shifted
-from vml_course.synth.sprite import Box, Planes, Sprite, cover
+from vml_course.synth.sprite import Box, Planes, Sprite, lay_veil
 
 STEP_PX = 0.7
 FEWEST_INSTANTS, MOST_INSTANTS = 8, 400
@@ -58,6 +58,8 @@ def count_instants(sprites: Sequence[Sprite], pose_px: FloatArray) -> int:
 
 def expose(on: Planes, bodies: Sequence[Swept]) -> list[Box]:
     """Draw bodies that move during an exposure over a still picture; return the boxes that may have changed."""
+    if all(len(body.pose_px) == 1 for body in bodies):
+        return [_lay(on, body, 0) for body in bodies]
     boxes = [body.box(on.luma.shape) for body in bodies]
     shared = [common for pair in combinations(boxes, 2) if not_empty(common := meet(*pair))]
     behind = [on.part(box).copy() for box in shared]
@@ -82,7 +84,8 @@ def expose_shaken(still: Planes, bodies: Sequence[Swept], offset_px: FloatArray)
     total = Planes(np.zeros_like(still.luma), np.zeros_like(still.chroma))
     for instant, offset in enumerate(offset_px):
         sheet = shifted(still, offset)
-        _lay_all(sheet, bodies, instant, (0, 0))
+        for body in bodies:
+            _lay(sheet, body, instant)
         total.luma[...] += sheet.luma
         total.chroma[...] += sheet.chroma
     count = np.float32(len(offset_px))
@@ -111,10 +114,9 @@ def hull(boxes: Sequence[Box]) -> Box:
 
 def _expose_one(on: Planes, body: Swept, box: Box) -> None:
     if body.is_still:
-        x, y, turn = body.pose_px[0]
-        body.sprite.lay(on, (x, y), turn)
+        _lay(on, body, 0)
     elif not_empty(box):
-        cover(on, body.sprite.smeared(body.pose_px, box), box)
+        lay_veil(on, body.sprite.smeared(body.pose_px, box), box)
 
 
 def _expose_together(on: Planes, still: Planes, bodies: Sequence[Swept], box: Box) -> None:
@@ -123,13 +125,13 @@ def _expose_together(on: Planes, still: Planes, bodies: Sequence[Swept], box: Bo
     count = len(bodies[0].pose_px)
     for instant in range(count):
         sheet.luma[...], sheet.chroma[...] = still.luma, still.chroma
-        _lay_all(sheet, bodies, instant, (box[0], box[1]))
+        for body in bodies:
+            _lay(sheet, body, instant, (box[0], box[1]))
         total.luma[...] += sheet.luma
         total.chroma[...] += sheet.chroma
     on.luma[...], on.chroma[...] = total.luma / np.float32(count), total.chroma / np.float32(count)
 
 
-def _lay_all(sheet: Planes, bodies: Sequence[Swept], instant: int, corner: tuple[int, int]) -> None:
-    for body in bodies:
-        x, y, turn = body.pose_px[instant]
-        body.sprite.lay(sheet, (x - corner[0], y - corner[1]), turn)
+def _lay(on: Planes, body: Swept, instant: int, corner: tuple[int, int] = (0, 0)) -> Box:
+    x, y, turn = body.pose_px[instant]
+    return body.sprite.lay(on, (x - corner[0], y - corner[1]), turn)

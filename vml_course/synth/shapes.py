@@ -10,6 +10,7 @@ from vml_course.synth.canvas import Canvas
 from vml_course.synth.texture import Plane
 
 Point = tuple[float, float]
+FAR_M = 100.0
 
 
 def disc(on: Canvas, centre: Point, radius: float) -> Plane:
@@ -27,8 +28,20 @@ def box(on: Canvas, low: Point, high: Point) -> Plane:
 def tapered(on: Canvas, tail: tuple[Point, float], head: tuple[Point, float]) -> Plane:
     """Return the distance to the hull of two discs (centre, radius): a limb.
 
-    The hull's flank leans by an angle whose sine is the difference of the radii over the distance.
+    The hull's flank leans by an angle whose sine is the difference of the radii over the distance. Only
+    around the hull is the distance worked out; farther away it is only said to be `FAR_M`.
     """
+    (ax, ay), ra = tail
+    (bx, by), rb = head
+    distance = np.full(on.opacity.shape, FAR_M, np.float32)
+    near = on.near((min(ax - ra, bx - rb), min(ay - ra, by - rb)), (max(ax + ra, bx + rb), max(ay + ra, by + rb)))
+    rows, columns = (round(of - part) for of, part in zip(on.origin[::-1], near.origin[::-1], strict=True))
+    height, width = near.opacity.shape
+    distance[rows : rows + height, columns : columns + width] = _hull(near, tail, head)
+    return distance
+
+
+def _hull(on: Canvas, tail: tuple[Point, float], head: tuple[Point, float]) -> Plane:
     (ax, ay), ra = tail
     (bx, by), rb = head
     length = float(np.hypot(bx - ax, by - ay))

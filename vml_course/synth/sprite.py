@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from vml_course.model.arrays import FloatArray
 from vml_course.synth.canvas import Canvas
+from vml_course.synth.overlay import cover, lay_over
 from vml_course.synth.smear import add_warps
 from vml_course.synth.texture import Plane
 
@@ -92,7 +93,12 @@ class Sprite:
             What it may have changed: x0, y0, x1, y1, even numbers.
         """
         box = self.box(at_px, angle_rad, on.luma.shape)
-        cover(on, self.seen(at_px, angle_rad, box), box)
+        (luma, chroma), part = self._from_box(at_px, angle_rad, box), on.part(box)
+        lay_over(part.luma[..., None], self.luma, luma)
+        if part.chroma.size:
+            size = part.chroma.shape[1], part.chroma.shape[0]
+            seen = cv2.warpAffine(self.chroma, chroma, size, flags=cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP)
+            cover(part.chroma, np.asarray(seen))
         return box
 
     @property
@@ -100,14 +106,6 @@ class Sprite:
         """How far the drawing's corners lie from the body's origin."""
         (rows, columns), (x, y) = self.luma.shape[:2], self.origin
         return float(np.hypot(max(x, columns - x), max(y, rows - y)) / OVERSAMPLE)
-
-    def seen(self, at_px: tuple[float, float], angle_rad: float, box: Box) -> Veil:
-        """Return what lies over a box of the picture."""
-        (luma, chroma), (x0, y0, x1, y1) = self._from_box(at_px, angle_rad, box), box
-        return Veil(
-            _warp(self.luma, luma, (x1 - x0, y1 - y0)),
-            _warp(self.chroma, chroma, ((x1 - x0) // 2, (y1 - y0) // 2)),
-        )
 
     def smeared(self, pose_px: FloatArray, box: Box) -> Veil:
         """Return the mean of what lies over a box in several poses, shape (k, 3): px, px, rad."""
@@ -170,22 +168,11 @@ def make_planes(drawing: Canvas) -> Planes:
     )
 
 
-def cover(on: Planes, veil: Veil, box: Box) -> None:
+def lay_veil(on: Planes, veil: Veil, box: Box) -> None:
     """Lay a veil over a box of a picture."""
-    x0, y0, x1, y1 = box
-    _over(on.luma[y0:y1, x0:x1, None], veil.luma)
-    _over(on.chroma[y0 // 2 : y1 // 2, x0 // 2 : x1 // 2], veil.chroma)
-
-
-def _over(region: Plane, veil: Plane) -> None:
-    region *= 1.0 - veil[..., -1:]
-    region += veil[..., :-1]
-
-
-def _warp(drawing: Plane, matrix: NDArray[np.float64], size: tuple[int, int]) -> Plane:
-    if not size[0] or not size[1]:
-        return np.zeros((size[1], size[0], drawing.shape[2]), np.float32)
-    return np.asarray(cv2.warpAffine(drawing, matrix, size, flags=cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP))
+    part = on.part(box)
+    cover(part.luma[..., None], veil.luma)
+    cover(part.chroma, veil.chroma)
 
 
 def _shifted(matrix: NDArray[np.float64], x: float, y: float) -> NDArray[np.float64]:
