@@ -7,6 +7,7 @@ assignment, the given values and the first picture, never the truth.
 from __future__ import annotations
 
 import base64
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -26,6 +27,8 @@ from vml_course.io.files import replacing
 TEMPLATES = Path(__file__).parent / "templates"
 JPEG_QUALITY = 88  # a quarter of the size of a PNG, and the marks are as sharp on paper
 INSET_PX = (48, 32)
+RING_PX, LEADER_PX, LEADER_DIRECTIONS = 20.0, 105.0, 24
+NAME_PX = 50.0  # about as wide as a name is drawn
 
 Pixels = NDArray[np.uint8]
 
@@ -40,6 +43,19 @@ class Inset:
     width: int
     height: int
     image: str
+
+
+@dataclass(frozen=True)
+class Label:
+    """A point's ring at x, y, and its name at the end of a leader line; `anchor` is SVG's text-anchor."""
+
+    name: str
+    x: float
+    y: float
+    start: tuple[float, float]
+    end: tuple[float, float]
+    text: tuple[float, float]
+    anchor: str
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,6 +84,26 @@ class FirstPicture:
     def image(self) -> str:
         """The whole picture as a data address."""
         return data_address(self.bgr, ".jpg")
+
+    def labels(self) -> list[Label]:
+        """Place each name away from the lines between the points, where the body is, and inside the picture."""
+        return [self._label(name, x, y) for name, (x, y) in self.points_px.items()]
+
+    def _label(self, name: str, x: float, y: float) -> Label:
+        others = [math.atan2(v - y, u - x) for other, (u, v) in self.points_px.items() if other != name]
+        angles = (math.tau * k / LEADER_DIRECTIONS for k in range(LEADER_DIRECTIONS))
+        angle = max(angles, key=lambda a: (self._has_room(x, y, a), min((_turn(a, b) for b in others), default=0.0)))
+        across, down = math.cos(angle), math.sin(angle)
+        start, end = ((round(x + r * across), round(y + r * down)) for r in (RING_PX, LEADER_PX))
+        text = (round(end[0] + 6 * across), round(end[1] + 9 + 14 * down))
+        return Label(name, round(x), round(y), start, end, text, _anchor(angle))
+
+    def _has_room(self, x: float, y: float, angle: float) -> bool:
+        width, height = self.size_px
+        u, v = x + LEADER_PX * math.cos(angle), y + LEADER_PX * math.sin(angle)
+        anchor = _anchor(angle)
+        left = u - {"start": 0, "middle": NAME_PX / 2, "end": NAME_PX}[anchor]
+        return 60 <= left <= width - NAME_PX and 60 <= v <= height - 40
 
     def insets(self) -> tuple[Inset, Inset]:
         """Return both ends of the known length, enlarged."""
@@ -176,6 +212,16 @@ def data_address(pixels: Pixels, ending: str) -> str:
     _, encoded = cv2.imencode(ending, pixels, settings)
     kind = "jpeg" if ending == ".jpg" else ending.removeprefix(".")
     return f"data:image/{kind};base64,{base64.b64encode(encoded.tobytes()).decode()}"
+
+
+def _anchor(angle: float) -> str:
+    across = math.cos(angle)
+    return "middle" if abs(across) < 0.4 else "start" if across > 0 else "end"
+
+
+def _turn(angle: float, other: float) -> float:
+    """Return the angle between two directions, 0 to pi."""
+    return abs((angle - other + math.pi) % math.tau - math.pi)
 
 
 def _fit(start: int, length: int, whole: int) -> int:

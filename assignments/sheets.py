@@ -111,6 +111,7 @@ def add_tracking(book: Workbook, assignment: Assignment) -> None:
         for row in range(2, TRACKING_ROWS + 2):
             cell = sheet.cell(row, column)
             cell.protection, cell.fill, cell.border = _OPEN, _TYPE_FILL, _THIN
+    sheet.protection.sheet = False  # a whole export, headings and all, may be pasted over it
     sheet.freeze_panes = "A2"
     sheet.print_title_rows = "1:1"
 
@@ -134,6 +135,7 @@ def add_meta(book: Workbook, assignment: Assignment, variant: Variant) -> None:
 
 _TRACKING_NOTES = (
     "Paste the positions that you measured: one row a frame, values only.",
+    "You may paste the whole sheet Data of vml track at A1, headings too.",
     "t_s in seconds of real time, positions in metres, x to the right, y up.",
     "Leave a cell empty where a point was lost; never copy the row before.",
     "The frames from 40 ms before to 40 ms after the impact are enough.",
@@ -143,7 +145,8 @@ _TRACKING_NOTES = (
 _STEPS = f"""\
 Read the handout: it shows the first picture of your video, the points to follow and the signs.
 Measure your video: enter the true frame rate, calibrate with the known length, track {{points}}.
-Paste the measured positions into the sheet "{TRACKING}": seconds and metres, y up. They support your answers.
+Paste the measured positions into the sheet "{TRACKING}": seconds and metres, y up. They support your answers. \
+The whole sheet "Data" of an export of vml track may be pasted over it at A1, headings too.
 Fill the coloured cells of the sheet "{ANSWERS}": a number, and its unit from the list beside it. \
 Keep at least four digits on the way and give at least three.
 Save as an Excel workbook (.xlsx) and hand in this file. Leave the names of the sheets as they are; \

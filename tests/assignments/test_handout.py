@@ -46,6 +46,9 @@ def test_it_states_every_question_with_points_and_tolerance(html: str) -> None:
 def test_its_command_line_names_the_points_and_leaves_the_scale_to_the_student(html: str) -> None:
     command = re.search(r"<pre>(vml track .*?)</pre>", html)
     assert command
+    assert '<span>--scale "X1,Y1,X2,Y2=1 m"</span>' in command[1].replace("&#34;", '"')
+    command = re.fullmatch("(.*)", re.sub("</?span>", "", command[1]))
+    assert command
     assert "vml track video.mp4 -p foot=209,384 -p knee=420,200 -p ball=1250,480 --fps 480" in command[1]
     assert "X1,Y1,X2,Y2=1 m" in command[1]
 
@@ -85,6 +88,23 @@ def test_an_end_near_the_border_is_shown_too() -> None:
 def test_it_shows_the_due_date_only_when_there_is_one(html: str) -> None:
     assert "Due Friday 12 June, 18:00" in html
     assert "Due " not in render_handout(KICK, VARIANT, GIVEN, PICTURE)
+
+
+def test_names_of_points_stand_away_from_the_other_points_and_inside_the_picture() -> None:
+    for label in PICTURE.labels():
+        x, y = POINTS[label.name]
+        out = np.subtract(label.end, (x, y))
+        for name, other in POINTS.items():
+            if name != label.name:
+                along = np.subtract(other, (x, y))
+                assert out @ along / np.linalg.norm(out) / np.linalg.norm(along) < 0.8
+        assert 0 < label.text[0] < 1280
+        assert 0 < label.text[1] < 720
+
+
+def test_it_tells_of_the_check_and_the_whole_export(html: str) -> None:
+    assert "vml check workbook.xlsx" in html
+    assert "sheet <code>Data</code>" in html
 
 
 def test_hostile_texts_are_shown_not_obeyed() -> None:

@@ -133,6 +133,29 @@ def test_a_row_inserted_by_a_program_that_leaves_names_behind_is_seen_by_the_lab
     assert submission.answer("I").unit_text == "kg m^2"
 
 
+def test_a_whole_export_may_be_pasted_over_the_tracking_sheet(desk):
+    """More columns, another order, pixels beside metres: columns are found by their headings."""
+    original = desk.read(desk.workbook().read_bytes()).tracking
+    names = [
+        "frame",
+        "step",
+        "t_s",
+        *(f"{p}_{a}_{u}" for p in ("ball", "foot", "knee") for u in ("px", "m") for a in "xy"),
+    ]
+
+    def edit(book):
+        sheet = book["Tracking"]
+        assert not sheet.protection.sheet
+        for column, name in enumerate(names, start=1):
+            values = original.get(name, np.arange(60.0))
+            for row, value in enumerate([name, *values.tolist()], start=1):
+                sheet.cell(row, column).value = value
+
+    pasted = desk.read(edited(desk.workbook().read_bytes(), edit)).tracking
+    for name, column in original.items():
+        np.testing.assert_array_equal(pasted[name], column)
+
+
 def test_two_labels_alike_are_not_guessed_between(desk):
     def edit(book):
         del book.defined_names["ans_e"]
