@@ -203,5 +203,5 @@ def test_parameters_outside_their_range_never_reach_the_simulation(name, value):
 
 
 def test_a_parameter_that_is_no_number_is_refused():
-    with pytest.raises(InputError, match="leg_length_m: expected a number"):
+    with pytest.raises(InputError, match=r"leg_length_m \(L\): expected a number"):
         SoccerKick(leg_length_m=float("nan"))
