@@ -39,7 +39,7 @@ def search(
     radius_px: float,
     angles_rad: FloatArray,
 ) -> list[Candidate]:
-    """Look for a block around a pose; the best place at each angle, best first.
+    """Look for a block around a pose; the best place and its rival at each angle, best first.
 
     Parameters
     ----------
@@ -60,9 +60,10 @@ def search(
         pose = turned(centre, float(angle))
         half = upright_half(pose, offset, block.shape)
         if half >= 3:
-            peak = _best_place(image, _upright(block, offset, pose, half), pose[:2], half, radius_px)
-            if peak is not None:
-                found.append(Candidate(np.concatenate([peak[:2], pose[2:]]), float(peak[2])))
+            found += [
+                Candidate(np.concatenate([peak[:2], pose[2:]]), float(peak[2]))
+                for peak in _best_places(image, _upright(block, offset, pose, half), pose[:2], half, radius_px)
+            ]
     return sorted(found, key=lambda candidate: -candidate.score)
 
 
@@ -86,21 +87,25 @@ def _upright(block: NDArray[np.float32], offset: tuple[float, float], pose: Floa
     return np.clip(np.rint(view), 0, 255).astype(np.uint8)
 
 
-def _best_place(
+def _best_places(
     image: NDArray[np.uint8], view: NDArray[np.uint8], middle: FloatArray, half: int, radius: float
-) -> tuple[float, float, float] | None:
-    """Return x, y and ZNCC of the best match, or None when the region is smaller than the view."""
+) -> list[tuple[float, float, float]]:
+    """Return x, y and ZNCC of the best match and of the best one elsewhere; none when the region is too small."""
     height, width = image.shape
     x0, y0 = (max(0, int(c - radius) - half) for c in middle)
     x1, y1 = (min(s, int(c + radius) + half + 2) for c, s in zip(middle, (width, height), strict=True))
     shrink = max(1, min(view.shape[0] // SMALLEST_SIDE, 2))
     if x1 - x0 < view.shape[1] + shrink or y1 - y0 < view.shape[0] + shrink:
-        return None
+        return []
     region, small = _shrunk(image[y0:y1, x0:x1], shrink), _shrunk(view, shrink)
     scores = cv2.matchTemplate(region, small, cv2.TM_CCOEFF_NORMED)
     scores[~np.isfinite(scores)] = -1.0  # flat places divide by nothing
-    _, score, _, (column, row) = cv2.minMaxLoc(scores)
-    return x0 + column * shrink + half, y0 + row * shrink + half, min(score, 1.0)
+    places, apart = [], max(half // shrink // 2, 2)
+    for _ in range(2):
+        _, score, _, (column, row) = cv2.minMaxLoc(scores)
+        places.append((x0 + column * shrink + half, y0 + row * shrink + half, min(score, 1.0)))
+        scores[max(0, row - apart) : row + apart + 1, max(0, column - apart) : column + apart + 1] = -1.0
+    return places
 
 
 def _shrunk(image: NDArray[np.uint8], factor: int) -> NDArray[np.uint8]:

@@ -26,6 +26,7 @@ USUAL_DROP = 0.15  # of ZNCC below its usual value, before another place is trie
 MEMORY = 0.7  # share of the past in the usual ZNCC
 DETERMINANT = (0.6, 1.6)  # change of area that a rigid thing in perspective can show
 REFINED = 3  # candidates of a search that are worth refining
+RIVAL_PX, RIVAL_ZNCC = 3.0, 0.1
 JUMP_PX = 1.0  # off the expected place: the motion has changed
 PULL_IN_PX = 12.0  # a candidate that moves further was another place
 
@@ -36,13 +37,16 @@ def follow(reference: Reference, past: Past, luma: Luma, rules: Rules) -> tuple[
         return past, None
     expected = predict(past.poses, past.steady, past.lost + 1)
     best, rung, own = None, 0, past.own_smear_px
+    seen: list[Match] = []
     for guess in guesses(reference, past, expected, luma, rules):
         found, own_smear = find_near(reference, past, luma, rules, guess)
         if is_acceptable(found, expected, guess) and (best is None or found.zncc > best.zncc):
             best, rung, own = found, guess.rung, own_smear
-        if best is not None and best.zncc >= past.usual_zncc - USUAL_DROP:
+        if past.lost and is_acceptable(found, expected, guess):
+            seen.append(found)
+        elif best is not None and best.zncc >= past.usual_zncc - USUAL_DROP and not past.lost:
             break
-    if best is None:
+    if best is None or any(is_rival(other, best) for other in seen):
         return _lost(past), None
     is_expected = rung == 1 and float(np.abs(best.pose - expected)[:2].max()) <= JUMP_PX
     return replace(_found(past, best, is_expected=is_expected), own_smear_px=own), best
@@ -51,20 +55,26 @@ def follow(reference: Reference, past: Past, luma: Luma, rules: Rules) -> tuple[
 def guesses(reference: Reference, past: Past, expected: FloatArray, luma: Luma, rules: Rules) -> Iterator[Guess]:
     """Yield the rungs one by one; a search is only made when its rung is reached."""
     near = rules.search_radius_px
-    yield Guess(expected, near, near, rules.zncc_lost, 1)
+    alike = past.usual_zncc - USUAL_DROP if past.lost else 0.0  # what comes back looks as it did; less is a look-alike
+    least = max(rules.zncc_lost, alike)
+    yield Guess(expected, near, near, least, 1)
     if np.abs(expected - past.poses[0]).max() > 0.5:
-        yield Guess(past.poses[0], near, near + np.abs(expected - past.poses[0])[:2].max(), rules.zncc_lost, 2)
+        yield Guess(past.poses[0], near, near + np.abs(expected - past.poses[0])[:2].max(), least, 2)
     offset = (reference.template.left, reference.template.top)
     centre = expected if past.lost else np.concatenate([expected[:2], past.poses[0][2:]])
     height, width = luma.shape
     centre = np.concatenate([np.clip(centre[:2], 0.0, [width - 1.0, height - 1.0]), centre[2:]])
     for rung, radius in enumerate(search_radii(near, past.lost), start=3):
-        least = rules.zncc_lost if radius <= near else rules.zncc_far
-        if past.lost:  # what comes back looks as it did before; less is a look-alike
-            least = max(least, past.usual_zncc - USUAL_DROP)
+        least = max(rules.zncc_lost if radius <= near else rules.zncc_far, alike)
         reach = radius + np.abs(expected - centre)[:2].max() + PULL_IN_PX
         for candidate in search(luma, reference.block, offset, centre, radius, ANGLES_RAD)[:REFINED]:
             yield Guess(candidate.pose, PULL_IN_PX, reach, least, rung)
+
+
+def is_rival(other: Match, best: Match) -> bool:
+    """Whether another place looks nearly as good: then a point that was lost cannot tell which one it is."""
+    apart = float(np.abs(other.pose - best.pose)[:2].max())
+    return apart > RIVAL_PX and other.zncc > best.zncc - RIVAL_ZNCC
 
 
 def search_radii(radius_px: float, lost: int) -> tuple[float, ...]:
