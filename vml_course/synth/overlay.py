@@ -1,8 +1,9 @@
 """Lays a drawing over a picture by one warp, and only where the drawing is.
 
 The place that a pixel sees is rounded to 1/32 of a sample and read bilinearly, in whole numbers and in an order
-of operations that are those of OpenCV's `warpAffine`: the result has the same bytes, at a third of the time,
-for a leaning leg fills a quarter of the box around it, and tiles stay in the cache.
+of operations that give the bytes of OpenCV 5.0's `warpAffine` for two planes. It goes by tiles and skips what the
+drawing does not reach, for a leaning leg fills a quarter of the box around it. Reading the large drawing takes
+most of the time all the same: the gain over OpenCV is about a tenth.
 """
 
 from __future__ import annotations
