@@ -1,7 +1,7 @@
 """What the tracker must reach, beside what it reaches: rendered, stored, read back, tracked, compared with the truth.
 
-`make accuracy` prints the table. A case with a figure that is not reached yet is an expected failure; the printed table
-says which, and `vml validate` holds what is reached.
+`make accuracy` prints the table: what is asked, what is found. Where a figure is not reached yet, the test holds
+what is (`held_px`, a fifth above the measurement); it goes down freely, and up only with a line in CHANGELOG.md.
 """
 
 from __future__ import annotations
@@ -41,9 +41,10 @@ SLOW = SoccerKick(
 
 @dataclass(frozen=True)
 class Case:
-    """How a clip is filmed, and what is asked of it."""
+    """How a clip is filmed, what is asked of it, and what is held until that is reached."""
 
     required_px: dict[str, float]
+    held_px: dict[str, float]
     camera: Camera = field(default_factory=Camera)
     recording: Recording = field(default_factory=lambda: Recording(crf=18, noise_grey=2.0))
     scene: SoccerKick = field(default_factory=SoccerKick)
@@ -57,17 +58,18 @@ def every(limit_px):
 
 
 CASES = {
-    "480, H.264 crf 18, noise 2, ball spins": Case(every(SHARP_PX)),
+    "480, H.264 crf 18, noise 2, ball spins": Case(every(SHARP_PX), every(0.027)),
     "quarter contrast, noise 3, crf 23": Case(
-        every(POOR_PX), recording=Recording(crf=23, noise_grey=3.0), contrast=0.25
+        every(POOR_PX), every(0.155), recording=Recording(crf=23, noise_grey=3.0), contrast=0.25
     ),
     "240, shutter 0.9": Case(
         {"foot": BLURRED_FOOT_PX, "ball": BLURRED_BALL_PX},
+        {"foot": 0.115, "ball": BLURRED_BALL_PX},
         camera=Camera(fps=240, shutter=0.9),
         scene=SLOW,
         settings={"shutter": 0.9},
     ),
-    "brightness drifts by 30 %": Case(every(SHARP_PX), drift=0.3),
+    "brightness drifts by 30 %": Case(every(SHARP_PX), every(0.035), drift=0.3),
 }
 
 
@@ -139,18 +141,15 @@ def show(name, case, rms, coverage, lost):
     for point in POINTS:
         asked = case.required_px.get(point)
         limit = "     -" if asked is None else f"{asked:6.3f}"
-        print(f"  {point:5} required {limit}  found {rms[point, 'before']:.4f} / {rms[point, 'after']:.4f} px")  # noqa: T201
+        short = "" if asked is None or max(rms[point, "before"], rms[point, "after"]) <= asked else "  short"
+        print(f"  {point:5} required {limit}  found {rms[point, 'before']:.4f} / {rms[point, 'after']:.4f} px{short}")  # noqa: T201
 
 
 # At 480 1/s, crf 18, a reference without noise and the true rotation do no better: there the codec is the limit.
 # That was not measured for the other cases. On the smeared foot it is the reference, which is smeared itself.
-SHORT = "some figures are short of what is asked; the README of track says which, and why where it is known"
-
-
-@pytest.mark.xfail(reason=SHORT, strict=False)
-def test_every_point_is_as_near_as_asked(measured):
+def test_every_point_is_as_near_as_is_held(measured):
     case, rms, _, _ = measured
-    over = {key: value for key, value in rms.items() if not value <= case.required_px.get(key[0], np.inf)}
+    over = {key: value for key, value in rms.items() if not value <= case.held_px.get(key[0], np.inf)}
     assert over == {}
 
 

@@ -3,16 +3,6 @@ import pytest
 from vml_course.cli import run
 
 
-@pytest.fixture
-def vml(capsys):
-    def call(*arguments):
-        code = run([str(argument) for argument in arguments])
-        said = capsys.readouterr()
-        return code, said.out, said.err
-
-    return call
-
-
 def one_line(text):
     return text.count("\n") == 1 and "Traceback" not in text
 

@@ -5,7 +5,6 @@ import json
 import numpy as np
 import pytest
 
-from vml_course.cli import run
 from vml_course.io.video import write_video
 from vml_course.model.frame import Picture
 
@@ -20,16 +19,6 @@ def video(tmp_path_factory, speckle, camera_of):
     path = tmp_path_factory.mktemp("check") / "still.mp4"
     write_video(path, (Picture(camera_of(picture, 2.0, k), half, half) for k in range(3)), 240, crf=0)
     return path
-
-
-@pytest.fixture
-def vml(capsys):
-    def call(*arguments):
-        code = run([str(argument) for argument in arguments])
-        said = capsys.readouterr()
-        return code, said.out, said.err
-
-    return call
 
 
 GOOD, BLANK, EDGE = ("-p", "mark=140,110"), ("-p", "cloth=40,110"), ("-p", "seam=214,110")
