@@ -76,3 +76,11 @@ def test_a_file_where_a_folder_is_wanted_is_one_line(vml, tmp_path, command):
     assert code == 2
     assert one_line(err), err
     assert (tmp_path / "file").read_text("utf-8") == "mine"
+
+
+def test_a_mistake_is_one_line_at_the_first_start_too(vml, monkeypatch, tmp_path):
+    """The notice that kernels are compiled must not come before a mistake in the request."""
+    monkeypatch.setattr("vml_course.usecases.kernels_ready.compile_notice", lambda method: f"compiling for {method}")
+    code, _, err = vml("track", tmp_path / "gone.mp4", "-p", "a=1,2", "-o", tmp_path / "x.csv")
+    assert code == 2
+    assert one_line(err), err

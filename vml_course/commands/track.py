@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from vml_course.usecases.check_points import PointCheck
     from vml_course.usecases.estimate_track import TrackEstimate
     from vml_course.usecases.summarise_track import PointSummary
+    from vml_course.usecases.track_clip import TrackRequest
 
 EXAMPLE = (
     'Example: vml track kick.mp4 -p ball=513,480 -p foot=146,257 --fps 480 --scale "295,610,795,610=1 m" '
@@ -94,14 +95,14 @@ def track(
     if check:
         raise typer.Exit(_print_checks(check_points(request), as_json))
     if estimate:
-        _say_if_compiling(method)
+        _say_if_compiling(request)
         _print_estimate(estimate_track(request), as_json)
         return
     tables = out or []
     if not tables and overlay is None:
         raise InputError("-o", "a table or an overlay to write", "nothing", "Add -o track.xlsx.")
     check_outputs(tables, overlay, video)
-    _say_if_compiling(method)
+    _say_if_compiling(request)
     with progress(f"track {video.name}") as show:
         tracked = track_clip(request, show)
     with progress("draw overlay") as show:
@@ -111,10 +112,12 @@ def track(
     _print(tracked, summarise(tracked), written, as_json)
 
 
-def _say_if_compiling(method: str) -> None:
+def _say_if_compiling(request: TrackRequest) -> None:
     from vml_course.usecases.kernels_ready import compile_notice
+    from vml_course.usecases.track_clip import check_video
 
-    if notice := compile_notice(method):
+    if notice := compile_notice(request.method):
+        check_video(request)  # a mistake is one line: nothing is announced that will not happen
         typer.echo(notice, err=True)
 
 

@@ -126,6 +126,19 @@ def check_request(request: TrackRequest) -> None:
     make_tracker(request.method, **request.settings)
 
 
+def check_video(request: TrackRequest) -> None:
+    """Refuse a video that cannot be opened, and a range or a scale that does not fit it.
+
+    Raises
+    ------
+    FileMissingError, VideoError, FrameRangeError, InputError
+    """
+    check_request(request)
+    source = open_source(request.video)
+    clock(request, source)
+    _calibration(request, source)
+
+
 def _check_names(kind: str, names: Sequence[str]) -> None:
     doubled = [name for place, name in enumerate(names) if name in names[:place]]
     if doubled:
