@@ -1,4 +1,4 @@
-"""What the methods that do not turn their block share: seeds that can be followed, likeness, sigma, sightings."""
+"""What the methods share: seeds that can be followed, first sightings; and likeness and sigma of unturned blocks."""
 
 from __future__ import annotations
 
@@ -35,7 +35,17 @@ def check_block(luma: Luma, name: str, point: tuple[float, float], size: int) ->
     SeedError
     """
     check_block_fits(luma, name, point, size)
-    texture = texture_of(cut(luma, point, size))
+    check_texture(cut(luma, point, size), name, point)
+
+
+def check_texture(block: FloatArray | Luma, name: str, point: tuple[float, float]) -> None:
+    """Refuse a block that has nothing to hold on to, or only an edge.
+
+    Raises
+    ------
+    SeedError
+    """
+    texture = texture_of(block)
     expected = f"a block with texture around ({point[0]:g}, {point[1]:g})"
     if texture.strongest <= texture.insignificant:
         raise SeedError(name, expected, "a blank one (no texture)", "Move the point to a spot with a pattern.")

@@ -15,16 +15,15 @@ from vml_course.correlate.template import (
     build_template,
     corner_sigma_px,
     cut_patch,
-    first_pixel,
     read_only,
     significant_hessian,
 )
-from vml_course.correlate.texture import noise_grey, texture_of
-from vml_course.errors import SeedError
+from vml_course.correlate.texture import noise_grey
 from vml_course.model.arrays import FloatArray
 from vml_course.model.frame import Luma
 from vml_course.model.quantity import check_quantities, quantity
 from vml_course.model.track import Sighting, Status
+from vml_course.track.blocks import check_block_fits, check_texture, first_sighting
 from vml_course.track.blur import Sharp
 from vml_course.track.ladder import follow
 from vml_course.track.learning import learn
@@ -90,7 +89,8 @@ class Dic:
         points = np.asarray(seeds_px, dtype=np.float64).reshape(-1, 2)
         references = tuple(self._learn(luma, f"seed {k + 1}", x, y) for k, (x, y) in enumerate(points))
         pasts = tuple(Past((np.concatenate([point, UPRIGHT]),)) for point in points)
-        return DicState(references, pasts), _first_sighting(references, points)
+        sigma_px = np.array([reference.sigma_px for reference in references])
+        return DicState(references, pasts), first_sighting(points, sigma_px)
 
     def step(self, state: DicState, luma: Luma) -> tuple[DicState, Sighting]:
         """Find the points in the next picture."""
@@ -115,9 +115,9 @@ class Dic:
 
     def _learn(self, luma: Luma, name: str, x: float, y: float) -> Reference:
         size = int(self.block)
-        _check_fits(luma, name, (x, y), size)
+        check_block_fits(luma, name, (x, y), size)
         patch = cut_patch(luma, (x, y), size, self.blur)
-        _check_texture(patch.values, name, (x, y))
+        check_texture(patch.values, name, (x, y))
         noise = noise_grey(patch.values)
         hessian = significant_hessian(patch, noise, self.blur)
         warp = choose_warp(hessian, noise, 0.5 * (size - 1))
@@ -134,39 +134,6 @@ def choose_warp(hessian: FloatArray, noise: float, half_px: float) -> str:
     """Return the most general warp that a block can hold, from its Hessian (6, 6); see `Dic` for the rule."""
     held = (warp for warp in WARPS if corner_sigma_px(hessian, warp, noise, half_px) <= LARGEST_CORNER_SIGMA_PX)
     return next(held, "translation")
-
-
-def _check_fits(luma: Luma, name: str, point: tuple[float, float], size: int) -> None:
-    height, width = luma.shape
-    half = 0.5 * (size - 1)
-    expected = f"a point from ({half:g}, {half:g}) to ({width - 1 - half:g}, {height - 1 - half:g}) px"
-    hint = f"The block of {size} px must lie inside the picture: move the point or take a smaller block."
-    if not np.all(np.isfinite(point)):
-        raise SeedError(name, expected, f"({point[0]:g}, {point[1]:g})", hint)
-    first = [first_pixel(c, size) for c in point]
-    if min(first) < 0 or first[0] + size > width or first[1] + size > height:
-        raise SeedError(name, expected, f"({point[0]:g}, {point[1]:g})", hint)
-
-
-def _check_texture(block: FloatArray, name: str, point: tuple[float, float]) -> None:
-    texture = texture_of(block)
-    expected = f"a block with texture around ({point[0]:g}, {point[1]:g})"
-    if texture.strongest <= texture.insignificant:
-        raise SeedError(name, expected, "a blank one (no texture)", "Move the point to a spot with a pattern.")
-    if texture.weakest <= texture.insignificant:
-        raise SeedError(name, expected, "only an edge, along which it slides", "Take a corner or a larger block.")
-
-
-def _first_sighting(references: tuple[Reference, ...], points: FloatArray) -> Sighting:
-    p = len(references)
-    return Sighting(
-        xy_px=points,
-        sigma_px=np.array([reference.sigma_px for reference in references]),
-        zncc=np.ones(p),
-        iterations=np.zeros(p, np.int64),
-        status=np.full(p, Status.AUTO, np.int8),
-        gradient=np.zeros((p, 4)),
-    )
 
 
 def _sighting(matches: tuple[Match | None, ...]) -> Sighting:
