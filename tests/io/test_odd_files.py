@@ -19,9 +19,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from vml_course.errors import VideoError, VmlError
-from vml_course.io.source import open_source
-from vml_course.io.video import bgr_of, probe, read_frames, read_pictures
+from vml_course.io.video import probe, read_frames
 
 COUNT = 30
 SIZE = (96, 160)

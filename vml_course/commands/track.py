@@ -28,7 +28,12 @@ def register(app: typer.Typer) -> None:
 
 
 def track(
-    video: Annotated[Path, typer.Argument(help="Video, or a clip of `vml clip` (frames keep the video's numbers).")],
+    video: Annotated[
+        Path,
+        typer.Argument(
+            help="Video, a clip of `vml clip` (frames keep the video's numbers), or a folder or pattern of pictures."
+        ),
+    ],
     points: Annotated[
         list[str] | None,
         typer.Option("-p", "--point", metavar="NAME=X,Y", help="A point in the first frame, px, y down. Repeatable."),

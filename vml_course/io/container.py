@@ -15,6 +15,10 @@ from vml_course.io.files import existing
 
 # Containers we promise to read; play lists and scripts, which open further files, are not among them.
 FORMATS = "mov,mp4,m4a,3gp,3g2,mj2,matroska,webm,avi,mpegts,mpeg,asf,flv,ogg,gif,mxf,dv,nut,mjpeg,h264,hevc"
+# Kinds of single pictures that we read as a clip, by the ending of their names.
+PICTURE_KINDS = {
+    ".png": "png", ".jpg": "jpeg", ".jpeg": "jpeg", ".bmp": "bmp", ".tif": "tiff", ".tiff": "tiff",
+}  # fmt: skip
 UNKNOWN_CODEC = ("a codec that cannot be decoded", "Convert it to H.264.")
 EXPECTED = "a video that can be decoded"
 
@@ -60,6 +64,8 @@ def _explain(path: Path, error: av.FFmpegError) -> tuple[str, str]:
         return "a cut-off file (its index, the moov atom, is missing)", "Copy it again from the camera."
     if isinstance(error, av.DecoderNotFoundError):
         return UNKNOWN_CODEC
+    if path.suffix.lower() in PICTURE_KINDS:
+        return "a single picture", "Give the folder of a series of pictures, or a pattern such as folder/*.png."
     return "something else or a damaged file", "Is it really a video?"
 
 

@@ -44,8 +44,10 @@ class PictureIndex:
     may_seek : bool
         Whether a stamp names one picture and a seek can find it.
     rate : Fraction
-        Pictures per second, not rounded; the mean when it varies.
+        Pictures per second, not rounded; the mean when it varies; 0 when nothing tells it.
     info : VideoInfo
+    files : tuple of Path
+        Where each picture is a file of its own: these, in order.
     """
 
     path: Path
@@ -55,6 +57,7 @@ class PictureIndex:
     may_seek: bool
     rate: Fraction
     info: VideoInfo
+    files: tuple[Path, ...] = ()
 
     def time_s(self, number: int) -> float:
         """Return the time stamp of a picture in seconds."""

@@ -12,21 +12,28 @@ from numpy.typing import NDArray
 
 from vml_course.model.frame import Luma, Picture
 
-JPEG_RANGE = 2
+JPEG_RANGE, UNKNOWN_RANGE = 2, 0
+GREYS = ("gray", "ya", "mono")  # ya: with transparency
 
 
 def luma_of(frame: av.VideoFrame) -> Luma:
     """Return the luma plane, shape (height, width), upright; 8-bit planes are copied, not converted.
 
-    Deeper planes are rounded to 8 bits; pictures without luma (RGB, palettes) become grey by BT.601.
+    Deeper planes are rounded to 8 bits; pictures without luma (RGB, palettes) become grey by BT.601. The range is left
+    as it is: in most videos luma runs from 16 to 235, which matching does not notice.
     """
-    first = frame.format.components[0]
-    if not first.is_luma:
+    if not frame.format.components[0].is_luma or frame.format.has_palette:
         grey = cv2.cvtColor(frame.to_ndarray(format="bgr24"), cv2.COLOR_BGR2GRAY)
         return upright(np.asarray(grey, dtype=np.uint8), frame.rotation)
-    if not (frame.format.is_planar or frame.format.name.startswith("gray")):
-        frame = frame.reformat(format="yuv422p")  # packed 4:2:2: the luma samples stay what they are
-    return upright(_plane(frame, 0), frame.rotation)
+    return upright(_plane(_with_luma_plane(frame), 0), frame.rotation)
+
+
+def _with_luma_plane(frame: av.VideoFrame) -> av.VideoFrame:
+    """Unpack a frame whose luma is mixed with other samples, which leaves it what it is."""
+    name = frame.format.name
+    if frame.format.is_planar or (name.startswith("gray") and frame.format.components[0].bits <= 16):
+        return frame
+    return frame.reformat(format="gray" if name.startswith(GREYS) else "yuv422p")
 
 
 def _plane(frame: av.VideoFrame, number: int) -> Luma:
@@ -48,10 +55,9 @@ def _plane(frame: av.VideoFrame, number: int) -> Luma:
 def picture_of(frame: av.VideoFrame) -> Picture:
     """Return a picture for the encoders: full range, 4:2:0, upright, an odd last line or column left out."""
     rotation = frame.rotation
-    is_full = frame.color_range == JPEG_RANGE or frame.format.name.startswith("yuvj") or frame.format.is_rgb
     full = frame.reformat(
         format="yuvj420p",
-        src_color_range=ColorRange.JPEG if is_full else ColorRange.MPEG,
+        src_color_range=ColorRange.JPEG if _is_full(frame) else ColorRange.MPEG,
         dst_color_range=ColorRange.JPEG,
         dst_colorspace=Colorspace.ITU601,
     )
@@ -61,6 +67,14 @@ def picture_of(frame: av.VideoFrame) -> Picture:
     return Picture(
         np.ascontiguousarray(luma[:height, :width]), np.ascontiguousarray(blue[half]), np.ascontiguousarray(red[half])
     )
+
+
+def _is_full(frame: av.VideoFrame) -> bool:
+    """Whether black is 0 and white 255; grey files that do not say so mean it."""
+    name, said = frame.format.name, frame.color_range
+    if frame.format.is_rgb or frame.format.has_palette or name.startswith("yuvj"):
+        return True
+    return bool(said == JPEG_RANGE or (said == UNKNOWN_RANGE and name.startswith(GREYS)))
 
 
 def upright(plane: NDArray[np.uint8], rotation_deg: float) -> NDArray[np.uint8]:

@@ -9,8 +9,9 @@ from pathlib import Path
 
 from vml_course.errors import FileFormatError
 from vml_course.io.clip_note import ClipNote, note_path, read_note
-from vml_course.io.files import sha256_of
-from vml_course.io.index import PictureIndex, index_video
+from vml_course.io.files import sha256_of_all
+from vml_course.io.index import PictureIndex
+from vml_course.io.sequence import index_clip
 from vml_course.io.video import ColourFrame, colours_of, frames_of
 from vml_course.model.frame import Frame, VideoInfo
 
@@ -28,7 +29,7 @@ class Source:
     info : VideoInfo
         Of the file that is read.
     rate : Fraction
-        Frames per second of the source, by its file.
+        Frames per second of the source, by its file; 0 when it tells none, as a folder of pictures does.
     is_variable_rate : bool
         Of the source.
     """
@@ -72,22 +73,21 @@ class Source:
 
 
 def open_source(path: Path) -> Source:
-    """Look at a video, and at the note beside it when there is one.
+    """Look at a video or a folder of pictures, and at the note beside it when there is one.
 
     Raises
     ------
     FileMissingError, VideoError
-        When it is no video.
+        When it is neither.
     FileFormatError
         When the note is damaged or belongs to another clip.
     """
-    path = Path(path)
-    index = index_video(path)
-    note = read_note(path)
+    index = index_clip(Path(path))
+    path = index.path
+    note = None if index.files else read_note(path)
     if note is None:
-        return Source(
-            path, path.name, sha256_of(path), index.info, index.rate, index.info.is_variable_rate, index, None
-        )
+        sha256 = sha256_of_all(index.files or [path])
+        return Source(path, path.name, sha256, index.info, index.rate, index.info.is_variable_rate, index, None)
     if len(note.pts) != index.info.frame_count:
         got = f"{index.info.frame_count} pictures"
         raise FileFormatError(note_path(path).name, f"a note of the clip's {len(note.pts)} pictures", got)

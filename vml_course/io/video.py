@@ -19,8 +19,9 @@ import numpy as np
 from vml_course.errors import FrameRangeError, VideoError
 from vml_course.io.container import open_video, pictures_of
 from vml_course.io.encode import write_video
-from vml_course.io.index import PictureIndex, index_video
+from vml_course.io.index import PictureIndex
 from vml_course.io.planes import bgr_of, luma_of, picture_from_bgr, picture_of
+from vml_course.io.sequence import index_clip, pictures_from
 from vml_course.model.frame import Frame, Picture, VideoInfo
 
 __all__ = [
@@ -49,7 +50,7 @@ class ColourFrame:
 
 
 def probe(path: Path) -> VideoInfo:
-    """Tell what a video file is, from its pictures and not from its header.
+    """Tell what a video file (or a folder of pictures) is, from its pictures and not from its header.
 
     Raises
     ------
@@ -57,12 +58,12 @@ def probe(path: Path) -> VideoInfo:
     VideoError
         When the file is empty, cut off before its index, no video, or has no picture that can be decoded.
     """
-    return index_video(Path(path)).info
+    return index_clip(Path(path)).info
 
 
 def exact_rate_of(path: Path) -> Fraction:
     """Return the file's pictures per second without rounding (the mean, when the rate varies)."""
-    return index_video(Path(path)).rate
+    return index_clip(Path(path)).rate
 
 
 def read_frames(path: Path, start: int = 0, end: int | None = None, step: int = 1) -> Iterator[Frame]:
@@ -82,12 +83,12 @@ def read_frames(path: Path, start: int = 0, end: int | None = None, step: int = 
     VideoError
         When the file is no video; or, on the way, at a damaged picture (it says up to which frame it is usable).
     """
-    return frames_of(index_video(Path(path)), start, end, step)
+    return frames_of(index_clip(Path(path)), start, end, step)
 
 
 def read_pictures(path: Path, start: int = 0, end: int | None = None, step: int = 1) -> Iterator[ColourFrame]:
     """Decode pictures with their colours; numbers, range and errors as in `read_frames`."""
-    return colours_of(index_video(Path(path)), start, end, step)
+    return colours_of(index_clip(Path(path)), start, end, step)
 
 
 def frames_of(index: PictureIndex, start: int, end: int | None, step: int) -> Iterator[Frame]:
@@ -127,6 +128,9 @@ def _read(index: PictureIndex, wanted: range, make: Callable[[av.VideoFrame], Ma
 
 def _from(index: PictureIndex, start: int) -> Numbered:
     """Decode from a place at or before `start`: the nearest key picture that a seek really finds, or the first."""
+    if index.files:
+        yield from pictures_from(index, start)
+        return
     keys = index.keys[index.keys <= start] if index.may_seek else index.keys[:0]
     for key in keys[::-1][:SEEK_TRIES]:
         pictures = _decode(index, int(key))

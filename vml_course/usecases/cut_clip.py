@@ -44,12 +44,17 @@ def cut_clip(video: Path, out: Path, start: int, end: int, step: int = 1, progre
     ------
     FrameRangeError
         When the range does not lie in the video; nothing is written.
+    InputError
+        When `video` is a folder of pictures, or `out` itself.
     VideoError, FileMissingError, FileFormatError
         When the video cannot be read or the clip's name names no format.
     """
     if out.exists() and out.resolve() == video.resolve():
         raise InputError(str(out), "another name than the video's", "the same file")
     source = open_source(video)
+    if not source.rate:
+        hint = "`vml track` takes the pictures themselves: --start and --end choose, --fps tells the rate."
+        raise InputError(source.name, "a video, which tells its rate", "pictures without one", hint)
     pictures = source.pictures(start, end, step)
     rate = source.index.rate / step
     total = len(range(start, end + 1, step))

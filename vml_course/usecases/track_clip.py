@@ -25,6 +25,7 @@ from vml_course.usecases.cut_clip import warnings_of
 __all__ = ["TrackRequest", "Tracked", "VectorRequest", "track_clip"]
 
 MERGED_PX = 1.5
+RATE = "the frames per second when recorded, above 0"
 Progress = Callable[[int, int], None]
 
 
@@ -44,7 +45,7 @@ class TrackRequest:
     Attributes
     ----------
     video : Path
-        A video, or a clip with its note: then frames and times are those of the source.
+        A video, a folder of pictures, or a clip with its note: then frames and times are those of the source.
     seeds : tuple of Seed
         Where the points are in the first picture.
     start, end, step : int
@@ -158,9 +159,11 @@ def clock(request: TrackRequest, source: Source) -> tuple[float, Iterator[Frame]
         When neither the request nor the file says a rate.
     """
     fps = request.fps if request.fps is not None else float(source.rate)
+    if request.fps is None and not source.rate:
+        raise InputError("fps", RATE, "none", f"{source.name} does not tell it: say it with --fps.")
     if not (np.isfinite(fps) and fps > 0):
-        raise InputError("fps", "the frames per second when recorded, above 0", f"{fps:g}")
-    stretch = float(source.rate) / fps
+        raise InputError("fps", RATE, f"{fps:g}")
+    stretch = float(source.rate or 1) / fps  # without a rate the stamps are numbers
     frames = source.frames(request.start, request.end, request.step)
     return fps, (replace(frame, time_s=frame.time_s * stretch) for frame in frames)
 
