@@ -16,10 +16,13 @@ import av
 import cv2
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
-from vml_course.io.video import probe, read_frames
+from vml_course.errors import VideoError, VmlError
+from vml_course.io.source import open_source
+from vml_course.io.timing import rate_of
+from vml_course.io.video import bgr_of, probe, read_frames, read_pictures
 
 COUNT = 30
 SIZE = (96, 160)
@@ -216,3 +219,155 @@ def test_the_rate_is_that_of_the_recording_whatever_the_container_rounds(files: 
     if not info.is_variable_rate and name != "bare h264":
         step = list(kind.stamps)[1] * kind.base
         assert info.fps == float(1 / step)
+
+
+@pytest.mark.parametrize("rate", [Fraction(25), Fraction(30000, 1001), Fraction(240), Fraction(480), Fraction(960)])
+def test_a_milliseconds_clock_tells_the_rate_though_the_header_is_wrong(tmp_path: Path, rate: Fraction) -> None:
+    info = probe(record(tmp_path, Kind("mkv", options=B_FRAMES, base=1 / rate, rate=10)))
+    assert info.fps == float(rate)
+    assert not info.is_variable_rate
+
+
+@given(rate=st.floats(5, 900), count=st.integers(20, 400), tick=st.sampled_from([1000, 600, 12800, 90000]))
+def test_any_even_rate_is_found_within_what_rounding_allows(rate: float, count: int, tick: int) -> None:
+    pts = np.round(np.arange(count) * tick / rate).astype(np.int64)
+    assume(np.diff(pts).min() > 0)
+    found, is_variable = rate_of(pts, Fraction(1, tick), None)
+    assert not is_variable
+    assert float(found) == pytest.approx(rate, rel=2 * rate / tick / count)
+
+
+# ---------------------------------------------------------------- turned, cut, joined
+
+
+def turned(path: Path, quarters: int) -> Path:
+    """Overwrite the display matrix of the track header, as phones write it, by quarter turns clockwise."""
+    data, (height, width) = bytearray(path.read_bytes()), SIZE
+    one = 1 << 16
+    matrices = [
+        (one, 0, 0, 0, one, 0, 0, 0),
+        (0, one, 0, -one, 0, 0, height * one, 0),
+        (-one, 0, 0, 0, -one, 0, width * one, height * one),
+        (0, -one, 0, one, 0, 0, 0, width * one),
+    ]
+    place = data.index(b"tkhd") + 4 + 40
+    words = (*matrices[quarters], 1 << 30)
+    data[place : place + 36] = b"".join(word.to_bytes(4, "big", signed=True) for word in words)
+    out = path.with_name(f"turned{quarters}{path.suffix}")
+    out.write_bytes(data)
+    return out
+
+
+@pytest.mark.parametrize("quarters", [0, 1, 2, 3])
+def test_a_turned_phone_gives_upright_pictures_grey_and_in_colours(
+    files: dict[str, Path], tmp_path: Path, quarters: int
+) -> None:
+    path = turned(files["b-frames mp4"], quarters)
+    plain = [frame.luma for frame in read_frames(files["b-frames mp4"])]
+    info = probe(path)
+    assert (info.height_px, info.width_px) == plain[0].shape[:: -1 if quarters % 2 else 1]
+    for number in (0, 17, 4):
+        luma = next(iter(read_frames(path, number))).luma
+        np.testing.assert_array_equal(luma, np.rot90(plain[number], -quarters))
+        colours = bgr_of(next(iter(read_pictures(path, number))).picture)
+        shown = bgr_of(next(iter(read_pictures(files["b-frames mp4"], number))).picture)
+        np.testing.assert_array_equal(colours, np.rot90(shown, -quarters))
+
+
+@pytest.mark.parametrize("name", ["open gop mkv", "hevc, open gop"])
+@pytest.mark.parametrize("ending", ["mkv", "mp4"])
+def test_a_video_that_begins_inside_a_recording_begins_with_its_first_whole_picture(
+    files: dict[str, Path], tmp_path: Path, name: str, ending: str
+) -> None:
+    """Cut at the second key picture of open groups: what is shown before it leans on what was cut off."""
+    path = tmp_path / f"inside.{ending}"
+    with av.open(str(files[name])) as source, av.open(str(path), "w") as target:
+        copy, keys = target.add_stream_from_template(source.streams.video[0]), 0
+        for packet in source.demux(source.streams.video[0]):
+            keys += packet.is_keyframe
+            if keys > 1 and packet.size:
+                packet.stream = copy
+                target.mux(packet)
+    assert_same_pictures(path)
+
+
+def test_a_transport_stream_that_begins_anywhere_begins_with_its_first_whole_picture(
+    files: dict[str, Path], tmp_path: Path
+) -> None:
+    data, path = files["mpeg-ts"].read_bytes(), tmp_path / "inside.ts"
+    path.write_bytes(data[188 * (len(data) // 188 // 3) :])
+    assert_same_pictures(path)
+
+
+def assert_same_pictures(path: Path) -> None:
+    whole = sequential(path)
+    assert 0 < probe(path).frame_count == len(whole) < COUNT
+    for start in (0, len(whole) // 2, len(whole) - 1):
+        for frame in read_frames(path, start):
+            np.testing.assert_array_equal(frame.luma, whole[frame.index][1])
+
+
+def test_pictures_that_change_their_size_are_refused_with_the_last_one_that_can_be_used(tmp_path: Path) -> None:
+    path = tmp_path / "two.h264"
+    parts = []
+    for size in (SIZE, (64, 96)):
+        parts.append(record(tmp_path, Kind("h264", options=B_FRAMES, size=size)).read_bytes())
+    path.write_bytes(b"".join(parts))
+    with pytest.raises(VideoError, match=r"^two\.h264: expected pictures of one size, .* frame 30\. .* --end 29\.$"):
+        list(read_frames(path))
+    assert len(list(read_frames(path, 0, 29))) == COUNT
+
+
+def test_joined_transport_streams_say_that_a_picture_is_missing_at_the_joint(
+    files: dict[str, Path], tmp_path: Path
+) -> None:
+    path = tmp_path / "joined.ts"
+    path.write_bytes(2 * files["mpeg-ts"].read_bytes())
+    info = probe(path)
+    assert info.damage == "pictures inside the file are damaged and left out"
+    frames = list(read_frames(path))
+    assert len(frames) == info.frame_count == 2 * COUNT - 1
+    np.testing.assert_array_equal(frames[-1].luma, sequential(files["mpeg-ts"])[-1][1])
+
+
+# ---------------------------------------------------------------- for the eye
+
+
+@pytest.mark.parametrize("name", ["grey ffv1", "grey 10 bit", "full range", "planes of rgb", "odd size, rgb"])
+def test_full_range_pictures_keep_their_brightness_for_the_eye(files: dict[str, Path], name: str) -> None:
+    for (_, grey), one in zip(sequential(files[name])[:3], read_pictures(files[name], 0, 2), strict=True):
+        height, width = one.picture.luma.shape
+        assert (height, width) == (grey.shape[0] // 2 * 2, grey.shape[1] // 2 * 2)
+        assert np.abs(one.picture.luma - np.minimum(grey, 255)[:height, :width]).max() <= 2
+
+
+@pytest.mark.parametrize("name", ["b-frames mp4", "hevc 10 bit", "packed", "odd size, ffv1"])
+def test_limited_range_pictures_are_spread_for_the_eye(files: dict[str, Path], name: str) -> None:
+    for (_, grey), one in zip(sequential(files[name])[:3], read_pictures(files[name], 0, 2), strict=True):
+        height, width = one.picture.luma.shape
+        spread = np.clip((grey[:height, :width] - 16) * 255 / 219, 0, 255)
+        assert np.abs(one.picture.luma - spread).max() <= 2
+
+
+# ---------------------------------------------------------------- wounds
+
+
+@pytest.mark.parametrize("name", list(KINDS))
+@settings(max_examples=4, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(share=st.floats(0, 0.999), patch=st.binary(min_size=1, max_size=60), is_cut=st.booleans())
+def test_a_wounded_file_of_any_kind_is_read_or_refused_in_one_line(
+    files: dict[str, Path], tmp_path: Path, name: str, share: float, patch: bytes, is_cut: bool
+) -> None:
+    data = bytearray(files[name].read_bytes())
+    place = int(share * len(data))
+    data[place : place + len(patch)] = patch
+    path = tmp_path / f"wounded.{KINDS[name].ending}"
+    path.write_bytes(data[:place] if is_cut else data)
+    said = ""
+    try:
+        source = open_source(path)
+        numbers = [frame.index for frame in source.frames(0, None, 1)]
+        assert numbers == list(range(source.info.frame_count))
+    except VmlError as error:
+        said = str(error)
+    assert "\n" not in said

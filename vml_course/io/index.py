@@ -26,7 +26,7 @@ from vml_course.model.frame import VideoInfo
 # Only in these does a seek land where the stamps say; elsewhere we decode from the start.
 SEEKABLE = ("mp4", "matroska", "avi")
 LONGEST_REORDERING = 16  # pictures, the most that H.264 and HEVC allow
-CUT_OFF = "the file ends early"
+CUT_OFF, WOUNDED = "the file ends early", "pictures inside the file are damaged and left out"
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -77,7 +77,8 @@ def index_video(path: Path) -> PictureIndex:
         codec, kind = stream.codec_context.name, container.format.name
         declared, headline = stream.average_rate, stream.frames
         stamps, keys, time_base, damage = _demux(container, stream)
-    shape = _first_shape(path)
+    shape, first_pts = _first_picture(path)
+    stamps = stamps[np.searchsorted(stamps, first_pts) :]
     if damage:
         stamps = stamps[: _unbroken(stamps)]
     may_seek = _may_seek(kind, stamps, keys)
@@ -102,6 +103,7 @@ def _demux(container: InputContainer, stream: VideoStream) -> tuple[IntArray, In
             if packet.is_corrupt:
                 damage = CUT_OFF
                 continue
+            damage = WOUNDED if damage else ""
             stamps.append(packet.pts)
             if packet.is_keyframe and packet.pts is not None:
                 keys.append(packet.pts)
@@ -147,9 +149,13 @@ def _decode_stamps(
     return np.array(known, dtype=np.int64), time_base, damage
 
 
-def _first_shape(path: Path) -> tuple[int, int]:
-    """Return height and width of the first picture, upright; the header knows nothing of rotation."""
+def _first_picture(path: Path) -> tuple[tuple[int, int], int]:
+    """Return height and width of the first picture that is shown, upright, and its stamp.
+
+    The header knows nothing of rotation. A video cut at an open group of pictures stores some that come before its
+    key picture and lean on what was cut off: no decoder shows them.
+    """
     with open_video(path) as (container, stream):
         for frame in pictures_of(container, stream):
-            return upright_shape(frame)
+            return upright_shape(frame), frame.pts if frame.pts is not None else np.iinfo(np.int64).min
     raise VideoError(path.name, EXPECTED, "a file without a picture that can be decoded")

@@ -8,6 +8,11 @@ import numpy as np
 
 from vml_course.model.arrays import IntArray
 
+WHOLE_RATES = [
+    Fraction(rate) for rate in (24, 25, 30, 48, 50, 60, 90, 100, 120, 200, 240, 250, 300, 400, 480, 500, 600, 960, 1000)
+]
+TELEVISION_RATES = [rate * 1000 / 1001 for rate in WHOLE_RATES]
+SLACK = 1e-6
 ROUNDING_TICKS = 1.5  # stamps rounded to a tick stray by one from a straight line; the line is fitted, too
 
 
@@ -37,7 +42,22 @@ def rate_of(pts: IntArray, time_base: Fraction, declared: Fraction | None) -> tu
         return declared or mean, True
     number = np.arange(len(pts), dtype=np.float64)
     slope = float(np.polyfit(number, (pts - pts[0]).astype(np.float64), 1)[0])
-    return mean.limit_denominator(100_000), not _is_even(pts, slope, _tick(pts))
+    if not _is_even(pts, slope, _tick(pts)):
+        return mean.limit_denominator(100_000), True
+    return _camera_rate(pts, time_base, 1 / (Fraction(slope) * time_base)), False
+
+
+def _camera_rate(pts: IntArray, time_base: Fraction, fitted: Fraction) -> Fraction:
+    """Return the usual rate that rounded stamps fit best, where they fit one, else the fitted rate.
+
+    Over 30 pictures at 480 1/s the 1 ms of Matroska leaves 483 as the mean.
+    """
+    for family in (WHOLE_RATES, TELEVISION_RATES):
+        spread = {rate: strays(pts, float(1 / (rate * time_base))) for rate in family}
+        usual = min(spread, key=spread.__getitem__)
+        if spread[usual] <= 1 + SLACK:
+            return usual
+    return fitted.limit_denominator(100_000)
 
 
 def _is_even(pts: IntArray, step: float, tick: int) -> bool:

@@ -20,7 +20,7 @@ from vml_course.errors import FrameRangeError, VideoError
 from vml_course.io.container import open_video, pictures_of
 from vml_course.io.encode import write_video
 from vml_course.io.index import PictureIndex
-from vml_course.io.planes import bgr_of, luma_of, picture_from_bgr, picture_of
+from vml_course.io.planes import bgr_of, luma_of, picture_from_bgr, picture_of, upright_shape
 from vml_course.io.sequence import index_clip, pictures_from
 from vml_course.model.frame import Frame, Picture, VideoInfo
 
@@ -155,6 +155,8 @@ def _decode(index: PictureIndex, key: int) -> Numbered:
                 number = number + 1 if place else _first_number(index, frame, key)
                 if frame.is_corrupt or (index.may_seek and frame.pts != _stamp(index, number)):
                     raise _damage(index, number)
+                if upright_shape(frame) != (index.info.height_px, index.info.width_px):
+                    raise _damage(index, number, "pictures of one size", "another size")
                 yield number, frame
         except av.FFmpegError as error:
             raise _damage(index, number + 1) from error
@@ -168,6 +170,6 @@ def _stamp(index: PictureIndex, number: int) -> int | None:
     return int(index.pts[number]) if number < len(index.pts) else None
 
 
-def _damage(index: PictureIndex, number: int) -> VideoError:
+def _damage(index: PictureIndex, number: int, expected: str = "undamaged pictures", got: str = "damage") -> VideoError:
     hint = f"Frames 0 to {number - 1} can be used: give --end {number - 1}." if number else ""
-    return VideoError(index.path.name, "undamaged pictures", f"damage at frame {number}", hint)
+    return VideoError(index.path.name, expected, f"{got} at frame {number}", hint)
