@@ -309,9 +309,8 @@ def assert_same_pictures(path: Path) -> None:
 
 def test_pictures_that_change_their_size_are_refused_with_the_last_one_that_can_be_used(tmp_path: Path) -> None:
     path = tmp_path / "two.h264"
-    parts = []
-    for size in (SIZE, (64, 96)):
-        parts.append(record(tmp_path, Kind("h264", options=B_FRAMES, size=size)).read_bytes())
+    kinds = [Kind("h264", options=B_FRAMES, size=size) for size in (SIZE, (64, 96))]
+    parts = [record(tmp_path, kind).read_bytes() for kind in kinds]
     path.write_bytes(b"".join(parts))
     with pytest.raises(VideoError, match=r"^two\.h264: expected pictures of one size, .* frame 30\. .* --end 29\.$"):
         list(read_frames(path))

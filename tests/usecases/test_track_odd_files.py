@@ -40,6 +40,21 @@ def record(path: Path, planes: list[np.ndarray], codec: str, pixels: str, **opti
     return path
 
 
+def test_pixels_that_are_not_square_are_said(planes: list[np.ndarray], tmp_path: Path) -> None:
+    """HDV camcorders store 1440 columns for 1920: lengths along x come out a quarter too short."""
+    path = tmp_path / "hdv.mp4"
+    with av.open(str(path), "w") as container:
+        stream = container.add_stream("libx264", rate=25)
+        (stream.height, stream.width), stream.pix_fmt = planes[0].shape, "yuv420p"
+        stream.codec_context.sample_aspect_ratio = Fraction(4, 3)
+        for plane in planes[:3]:
+            container.mux(stream.encode(av.VideoFrame.from_ndarray(plane, format="gray").reformat(format="yuv420p")))
+        container.mux(stream.encode(None))
+    assert probe(path).pixel_aspect == pytest.approx(4 / 3)
+    (warning,) = cut_clip(path, tmp_path / "clip.avi", 0, 2).warnings
+    assert warning.startswith("hdv.mp4: the pixels are 1.333 times as wide as high;")
+
+
 def places(video: Path, **changes: Any) -> np.ndarray:
     return track_clip(TrackRequest(video, SEEDS, settings={"block": 41}, **changes)).track.xy_px
 

@@ -76,6 +76,7 @@ def index_video(path: Path) -> PictureIndex:
     with open_video(path) as (container, stream):
         codec, kind = stream.codec_context.name, container.format.name
         declared, headline = stream.average_rate, stream.frames
+        aspect = float(stream.sample_aspect_ratio or 1)
         stamps, keys, time_base, damage = _demux(container, stream)
     shape, first_pts = _first_picture(path)
     stamps = stamps[np.searchsorted(stamps, first_pts) :]
@@ -87,7 +88,7 @@ def index_video(path: Path) -> PictureIndex:
     rate, is_variable = rate_of(stamps, time_base, declared)
     if damage and headline > len(stamps):
         damage += f": {len(stamps)} of {headline} frames are there"
-    info = VideoInfo(shape[1], shape[0], len(stamps), float(rate), is_variable, codec, kind, damage)
+    info = VideoInfo(shape[1], shape[0], len(stamps), float(rate), is_variable, codec, kind, damage, aspect)
     return PictureIndex(path, stamps, np.searchsorted(stamps, keys), time_base, may_seek, rate, info)
 
 

@@ -57,6 +57,8 @@ class VideoInfo:
     is_variable_rate : bool
         Whether the time stamps are unevenly spaced beyond the container's rounding.
     codec, container : str
+    pixel_aspect : float
+        Width of a pixel by its height: 1 but in some camcorders' files (HDV: 1.333).
     damage : str
         What is wrong with the file though it can be read in part; "" when nothing is.
     """
@@ -69,3 +71,4 @@ class VideoInfo:
     codec: str
     container: str
     damage: str = ""
+    pixel_aspect: float = 1.0

@@ -13,6 +13,7 @@ from vml_course.io.video import ColourFrame, write_video
 from vml_course.model.frame import Picture
 
 Progress = Callable[[int, int], None]
+SQUARE = 0.002  # headers round
 HIGH_QUALITY_CRF = 10  # H.264 whose losses stay below a phone's own
 
 
@@ -70,6 +71,9 @@ def warnings_of(source: Source) -> tuple[str, ...]:
     found = [f"{source.path.name}: {source.info.damage}."] if source.info.damage else []
     if source.is_variable_rate:
         found.append(f"{source.name}: the frame rate varies (mean {float(source.rate):.4g} 1/s); real times are used.")
+    if abs(source.info.pixel_aspect - 1) > SQUARE:
+        wide = f"{source.info.pixel_aspect:.4g} times as wide as high"
+        found.append(f"{source.name}: the pixels are {wide}; lengths along x and y cannot share one scale.")
     return tuple(found)
 
 
