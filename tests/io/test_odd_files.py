@@ -274,6 +274,23 @@ def test_a_turned_phone_gives_upright_pictures_grey_and_in_colours(
         np.testing.assert_array_equal(colours, np.rot90(shown, -quarters))
 
 
+@pytest.mark.parametrize("name", ["b-frames mp4", "b-frames mov", "open gop mp4", "hevc", "av1"])
+@pytest.mark.parametrize(("first", "behind"), [(2, 20), (10, 22)])
+def test_an_edit_list_may_hide_both_ends(
+    files: dict[str, Path], tmp_path: Path, name: str, first: int, behind: int
+) -> None:
+    """As phones trim: the movie keeps all its pictures, and only the times to be shown are overwritten."""
+    data = bytearray(files[name].read_bytes())
+    movie, media = (int.from_bytes(data[data.index(box) + 16 :][:4], "big") for box in (b"mvhd", b"mdhd"))
+    place = data.index(b"elst") + 12
+    for offset, value in ((0, (behind - first) * movie // 30), (4, first * media // 30)):
+        data[place + offset : place + offset + 4] = value.to_bytes(4, "big")
+    path = tmp_path / f"trimmed{files[name].suffix}"
+    path.write_bytes(data)
+    assert_same_pictures(path)
+    assert probe(path).frame_count == behind - first
+
+
 @pytest.mark.parametrize("name", ["open gop mkv", "hevc, open gop"])
 @pytest.mark.parametrize("ending", ["mkv", "mp4"])
 def test_a_video_that_begins_inside_a_recording_begins_with_its_first_whole_picture(

@@ -122,3 +122,17 @@ def test_the_command_line_tracks_a_folder_with_an_overlay(
     assert run([*words, "--fps", "240", "--overlay", str(overlay)]) == 0
     assert "numbers jump from img4.png to img6.png" in capsys.readouterr().err
     assert probe(overlay).frame_count == FRAMES - 1
+
+
+def test_pictures_of_odd_size_are_tracked_cut_and_drawn_on(planes: list[np.ndarray], tmp_path: Path) -> None:
+    odd = [plane[:-1, :-1] for plane in planes]
+    video = record(tmp_path / "odd.mkv", odd, "ffv1", "gray")
+    whole = places(record(tmp_path / "even.mkv", planes, "ffv1", "gray"))
+    np.testing.assert_allclose(places(video), whole, atol=1e-6)
+    clip = cut_clip(video, tmp_path / "clip.mp4", 0, 5).clip
+    assert (probe(clip).height_px, probe(clip).width_px) == tuple(side // 2 * 2 for side in odd[0].shape)
+    np.testing.assert_allclose(places(clip), whole[:6], atol=0.05)
+    overlay = tmp_path / "overlay.avi"
+    words = ["track", str(video), "-p", "a=85,110", "--block", "41", "-o", str(tmp_path / "a.csv")]
+    assert run([*words, "--overlay", str(overlay)]) == 0
+    assert probe(overlay).frame_count == FRAMES
