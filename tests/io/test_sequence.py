@@ -158,6 +158,12 @@ def test_a_single_jpeg_is_no_video(tmp_path: Path) -> None:
         probe(write(tmp_path / "one.jpg", grey(0)))
 
 
+def test_a_stack_in_one_file_is_refused_with_what_to_do(tmp_path: Path) -> None:
+    (tmp_path / "stack.tif").write_bytes(cv2.imencodemulti(".tif", [grey(0), grey(1)])[1].tobytes())
+    with pytest.raises(VideoError, match=r"^stack\.tif: expected one picture in each file, got a stack of several\."):
+        probe(tmp_path)
+
+
 def test_a_range_outside_the_series_is_refused_at_once(tmp_path: Path) -> None:
     with pytest.raises(FrameRangeError, match=r"a frame of frames, 0 to 11, got 12"):
         read_frames(folder_of(tmp_path, "{}.png"), 12)

@@ -122,6 +122,7 @@ def test_the_command_line_tracks_a_folder_with_an_overlay(
     assert run([*words, "--fps", "240", "--overlay", str(overlay)]) == 0
     assert "numbers jump from img4.png to img6.png" in capsys.readouterr().err
     assert probe(overlay).frame_count == FRAMES - 1
+    assert run([*words[:-1], str(tmp_path / "a.xlsx"), "--fps", "240"]) == 0
 
 
 def test_pictures_of_odd_size_are_tracked_cut_and_drawn_on(planes: list[np.ndarray], tmp_path: Path) -> None:

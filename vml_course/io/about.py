@@ -30,7 +30,7 @@ def calibration_facts(tracked: Tracked) -> list[Fact]:
     return [
         *facts,
         ("fps", tracked.fps, "1/s"),
-        ("fps_file", tracked.info.fps, "1/s"),
+        ("fps_file", tracked.info.fps or "unknown", "1/s"),
         ("time_base", tracked.time_base, ""),
         ("t0_frame", int(tracked.track.frame[0]) if len(tracked.track.frame) else 0, ""),
     ]
