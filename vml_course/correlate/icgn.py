@@ -22,6 +22,7 @@ a quarter of a pixel for all its macroblocks) no single block can see: sigma is 
 
 from __future__ import annotations
 
+import math
 from enum import IntEnum
 from typing import NamedTuple
 
@@ -39,6 +40,9 @@ LARGEST_STEP = 6.0  # px at the corner, one iteration
 SMALLEST_GAIN = 0.5  # share of the contrast ratio; a poor start must not turn into a giant step
 LARGEST_STRETCH = 3.0
 BLANK_VARIANCE = 0.01  # grey levels squared; float32 sums tell no less from nothing
+GEOMETRIC_PX = 0.3  # at the corner: shorter steps shrink by the same share each time
+LARGEST_STRETCH_OF_STEP = 1.5
+SAFETY = 2.0  # on that share
 TILE = 15  # px; a codec moves its pieces of 8 to 16 px by fractions of a pixel, each its own way
 
 
@@ -50,6 +54,28 @@ class Outcome(IntEnum):
     OUTSIDE = 2
     RUNAWAY = 3
     BLANK = 4
+
+
+OUTCOMES = tuple(Outcome)
+
+
+class Pace(NamedTuple):
+    """How the steps of a block near the end of a match shrink; learned in one picture, used in the next.
+
+    Attributes
+    ----------
+    stretch : float
+        What a step is to be multiplied by. Noise and a codec weaken the texture that two pictures share, so that
+        Gauss-Newton steps fall short, all by the same share (1 % lossless, 20 % at crf 23).
+    contraction : float
+        The next step as a share of the one before, at most; 1 when it is not known.
+    """
+
+    stretch: float = 1.0
+    contraction: float = 1.0
+
+
+UNKNOWN_PACE = Pace()
 
 
 class Match(NamedTuple):
@@ -69,6 +95,8 @@ class Match(NamedTuple):
     residual : float32 array, shape (n, m)
         What is left of the picture under the block, grey levels times the root of the weight; meaningful when
         converged.
+    pace : Pace
+        As measured; as given when one step was enough.
     """
 
     pose: FloatArray
@@ -79,6 +107,7 @@ class Match(NamedTuple):
     gain: float
     residual_grey: float
     residual: NDArray[np.float32]
+    pace: Pace
 
 
 def match(
@@ -89,6 +118,7 @@ def match(
     max_iterations: int = 40,
     tolerance_px: float = 1e-3,
     max_shift_px: float = 40.0,
+    pace: Pace = UNKNOWN_PACE,
 ) -> Match:
     """Find the block near a first guess.
 
@@ -101,16 +131,20 @@ def match(
         First guess of the pose.
     max_iterations : int
     tolerance_px : float
-        Converged when no corner of the block moves by more.
+        Converged when the next step would move no corner of the block by more.
     max_shift_px : float
         The centre may not leave its first guess by more along x or y.
+    pace : Pace
+        What is known of the steps of this block.
     """
-    report = np.full(5, np.nan)
+    report = np.full(7, np.nan)
     pose = np.array(start, dtype=np.float64)
     residual = np.empty(template.values.shape, np.float32)
-    outcome = iterate(image, template, pose, np.array([max_iterations, tolerance_px, max_shift_px]), report, residual)
-    iterations, zncc, sigma, gain, spread = report.tolist()
-    return Match(pose, Outcome(outcome), int(iterations), zncc, sigma, gain, spread, residual)
+    limits = np.array([max_iterations, tolerance_px, max_shift_px, *pace])
+    outcome = iterate(image, template, pose, limits, report, residual)
+    iterations, zncc, sigma, gain, spread, *measured = report.tolist()
+    pace = pace if math.isnan(measured[0]) else Pace(*measured)
+    return Match(pose, OUTCOMES[outcome], int(iterations), zncc, sigma, gain, spread, residual, pace)
 
 
 @njit(fastmath=True, **KERNEL)
@@ -215,12 +249,8 @@ def gauss_newton_step(template, sums, step):  # type: ignore[no-untyped-def] # n
 
 
 @njit(**KERNEL)
-def damp(template, step, last, share, hardly_shrinks):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN201
-    """Take only a share of the step, and half of that share from here on when steps swing to and fro.
-
-    Where the picture's gradients are weaker than the block's (blur, another background in its corners), the
-    block's Hessian overshoots by up to twice the error, and undamped steps swing for ever.
-    """
+def compare(template, step, last):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN201
+    """Return the products of two steps, step with last, step with itself, last with itself, in px at the edge squared."""
     n, m = template.values.shape
     scale = 0.25 * (n * n + m * m) / 2.0  # of the linear part against the place, at the edge of the block
     along, size, size_last = 0.0, 0.0, 0.0
@@ -229,12 +259,32 @@ def damp(template, step, last, share, hardly_shrinks):  # type: ignore[no-untype
         along += weight * step[k] * last[k]
         size += weight * step[k] * step[k]
         size_last += weight * last[k] * last[k]
+    return along, size, size_last
+
+
+@njit(**KERNEL)
+def damp(products, share, hardly_shrinks):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN201
+    """Return the share of the steps that is taken from here on: half of it when they swing to and fro.
+
+    Where the picture's gradients are weaker than the block's (blur, another background in its corners), the
+    block's Hessian overshoots by up to twice the error, and undamped steps swing for ever.
+    """
+    along, size, size_last = products
     if hardly_shrinks and along < -0.5 * np.sqrt(size * size_last):
-        share = max(0.5 * share, 0.25)
-    for k in range(6):
-        step[k] *= share
-        last[k] = step[k]
+        return max(0.5 * share, 0.25)
     return share
+
+
+@njit(**KERNEL)
+def measure_pace(products, pull, report):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN201
+    """Write stretch and contraction, from a step and the one before, which was `pull` times as long as computed.
+
+    When steps fall short by q, the second is 1 / pull - (1 - q) of the first (of what was taken of it).
+    """
+    along, size, size_last = products
+    reach = 1.0 / pull - along / size_last
+    report[5] = 1.0 / min(max(reach, 1.0 / LARGEST_STRETCH_OF_STEP), 1.0)
+    report[6] = np.sqrt(size / size_last)
 
 
 @njit(fastmath=True, **KERNEL)
@@ -303,17 +353,26 @@ def variance_by_tiles(template, residual, total):  # type: ignore[no-untyped-def
         total[q] *= tiles / (tiles - 3.0)
 
 
+@njit(fastmath=True, **KERNEL)
+def leave_residual(template, sampled, sums, step):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN201
+    """Turn what was sampled into the residual that the last step leaves, times the root of the weight."""
+    n, m = sampled.shape
+    mean, gain = f4(sums[0] / template.total), f4(sums[2] / template.energy)
+    s = np.empty(6, np.float32)
+    for k in range(6):
+        s[k] = gain * f4(step[k])
+    for i in range(n):
+        f, w, r, d = sampled[i], template.weight[i], template.values[i], template.descent[i]
+        for j in range(m):
+            moved = s[0] * d[0, j] + s[1] * d[1, j] + s[2] * d[2, j] + s[3] * d[3, j] + s[4] * d[4, j] + s[5] * d[5, j]
+            f[j] = np.sqrt(w[j]) * (f[j] - mean - gain * r[j] - moved / w[j])
+
+
 @njit(**KERNEL)
 def judge(template, sampled, sums, pose, report):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN201
-    """Write ZNCC, sigma, gain and residual of the block at its last place; see the module's formulas."""
+    """Write ZNCC, sigma, gain and residual's size of the block at its last place; see the module's formulas."""
     n, m = sampled.shape
-    mean = sums[0] / template.total
-    spread = sums[1] - sums[0] * mean
-    gain = sums[2] / template.energy
-    for i in range(n):
-        for j in range(m):
-            e = sampled[i, j] - f4(mean) - f4(gain) * template.values[i, j]
-            sampled[i, j] = np.sqrt(template.weight[i, j]) * e
+    spread, gain = sums[1] - sums[0] * sums[0] / template.total, sums[2] / template.energy
     lags, tiles = np.zeros(3), np.zeros(3)
     spread_left = variance_by_lags(template, sampled, lags) * n * m / max(template.total - 8.0, 1.0)
     variance_by_tiles(template, sampled, tiles)
@@ -330,12 +389,13 @@ def judge(template, sampled, sums, pose, report):  # type: ignore[no-untyped-def
 def iterate(image, template, pose, limits, report, sampled):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN201
     """Run the iterations from `pose`, which is replaced; return the outcome and fill the report.
 
-    report: iterations, ZNCC, sigma, gain, residual's standard deviation; sampled: receives the residual.
+    limits: iterations, tolerance, largest shift, stretch, contraction; report: iterations, ZNCC, sigma, gain,
+    residual's standard deviation, stretch, contraction; sampled: receives the residual.
     """
     start = pose.copy()
     sums, step, local = np.empty(9), np.empty(6), pose.copy()
     crop, x0, y0 = np.empty((0, 0), np.float32), 0, 0
-    last, share = np.zeros(6), 1.0
+    last, share, pull = np.zeros(6), 1.0, 1.0
     outcome, before = 1, 0.0
     report[0] = 0
     while report[0] < limits[0] and outcome == 1:
@@ -355,12 +415,20 @@ def iterate(image, template, pose, limits, report, sampled):  # type: ignore[no-
         moved = gauss_newton_step(template, sums, step)
         if moved < 0.0:
             return 4
-        share = damp(template, step, last, share, moved > 0.3 * before)
-        compose(pose, step, template.rigid)
+        products = compare(template, step, last)
+        share = damp(products, share, moved > 0.3 * before)
+        if 0.0 < before < GEOMETRIC_PX:
+            measure_pace(products, pull, report)
+        pull = share * (limits[3] if moved < GEOMETRIC_PX else 1.0)
+        for k in range(6):
+            last[k] = pull * step[k]
+        compose(pose, last, template.rigid)
         report[0] += 1
-        if moved < limits[1] or (moved < 0.1 and moved * moved < 0.3 * limits[1] * before):
-            outcome = 0  # the steps shrink geometrically: the next would be well below the tolerance
-        before = moved
+        before = pull * moved
+        shrinks = limits[4] if np.isnan(report[6]) else report[6]
+        if before < limits[1] or (before < GEOMETRIC_PX and before * min(SAFETY * shrinks, 1.0) < limits[1]):
+            outcome = 0
     if outcome == 0:
+        leave_residual(template, sampled, sums, step)
         judge(template, sampled, sums, pose, report)
     return outcome

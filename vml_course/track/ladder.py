@@ -9,11 +9,10 @@ is looked for again in the following pictures, in a region that grows, always wi
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 
 import numpy as np
 
-from vml_course.correlate.icgn import Match, Outcome
+from vml_course.correlate.icgn import UNKNOWN_PACE, Match, Outcome, Pace
 from vml_course.correlate.search import search
 from vml_course.model.arrays import FloatArray
 from vml_course.model.frame import Luma
@@ -48,8 +47,8 @@ def follow(reference: Reference, past: Past, luma: Luma, rules: Rules) -> tuple[
             break
     if best is None or any(is_rival(other, best) for other in seen):
         return _lost(past), None
-    is_expected = rung == 1 and float(np.abs(best.pose - expected)[:2].max()) <= JUMP_PX
-    return replace(_found(past, best, is_expected=is_expected), own_smear_px=own), best
+    is_expected = rung == 1 and apart_px(best.pose, expected) <= JUMP_PX
+    return _found(past, best, own, is_expected=is_expected), best
 
 
 def guesses(reference: Reference, past: Past, expected: FloatArray, luma: Luma, rules: Rules) -> Iterator[Guess]:
@@ -73,8 +72,12 @@ def guesses(reference: Reference, past: Past, expected: FloatArray, luma: Luma, 
 
 def is_rival(other: Match, best: Match) -> bool:
     """Whether another place looks nearly as good: then a point that was lost cannot tell which one it is."""
-    apart = float(np.abs(other.pose - best.pose)[:2].max())
-    return apart > RIVAL_PX and other.zncc > best.zncc - RIVAL_ZNCC
+    return apart_px(other.pose, best.pose) > RIVAL_PX and other.zncc > best.zncc - RIVAL_ZNCC
+
+
+def apart_px(one: FloatArray, other: FloatArray) -> float:
+    """Return how far apart two poses are, along x or y, whichever is more."""
+    return max(abs(float(one[0]) - float(other[0])), abs(float(one[1]) - float(other[1])))
 
 
 def search_radii(radius_px: float, lost: int) -> tuple[float, ...]:
@@ -88,23 +91,36 @@ def is_acceptable(found: Match, expected: FloatArray, guess: Guess) -> bool:
     """Whether a match keeps the rules: converged, alike, near, not torn."""
     if found.outcome is not Outcome.CONVERGED or not found.zncc >= guess.least_zncc:
         return False
-    x, y, xx, xy, yx, yy = found.pose.tolist()
-    off = max(abs(x - float(expected[0])), abs(y - float(expected[1])))
-    return bool(off <= guess.radius_px) and bool(DETERMINANT[0] <= xx * yy - xy * yx <= DETERMINANT[1])
+    _, _, xx, xy, yx, yy = found.pose.tolist()
+    is_near = apart_px(found.pose, expected) <= guess.radius_px
+    return is_near and bool(DETERMINANT[0] <= xx * yy - xy * yx <= DETERMINANT[1])
 
 
 def _lost(past: Past) -> Past:
-    return replace(past, lost=past.lost + 1, steady=0)
+    return past._replace(lost=past.lost + 1, steady=0)
 
 
-def _found(past: Past, found: Match, *, is_expected: bool) -> Past:
+def _found(past: Past, found: Match, own_smear_px: FloatArray | None, *, is_expected: bool) -> Past:
     """Return the past with one more sighting; after a gap the velocity is the mean over it."""
     before = past.poses
     if past.lost:
         gap = past.lost + 1
         mean_move = (found.pose[:2] - before[0][:2]) / gap
         before = (np.concatenate([found.pose[:2] - mean_move, found.pose[2:]]),)
-    usual = MEMORY * past.usual_zncc + (1.0 - MEMORY) * found.zncc
-    return replace(
-        past, poses=(found.pose, *before)[:3], steady=past.steady + 1 if is_expected else 0, lost=0, usual_zncc=usual
+    return Past(
+        poses=(found.pose, *before)[:3],
+        steady=past.steady + 1 if is_expected else 0,
+        lost=0,
+        usual_zncc=MEMORY * past.usual_zncc + (1.0 - MEMORY) * found.zncc,
+        own_smear_px=own_smear_px,
+        lessons=past.lessons,
+        pace=_paced(past.pace, found.pace),
     )
+
+
+def _paced(known: Pace, measured: Pace) -> Pace:
+    """Return what is to be expected of the next match: a mean of stretches, and no hasty hope of shorter steps."""
+    contraction = max(measured.contraction, 0.5 * (known.contraction + measured.contraction))
+    if known is UNKNOWN_PACE:
+        contraction = measured.contraction
+    return Pace(0.5 * (known.stretch + measured.stretch), contraction)

@@ -19,14 +19,14 @@ def learn(reference: Reference, past: Past, found: Match | None) -> tuple[Refere
         return reference, past
     lessons = attend(past.lessons, reference.template, found.pose, found.residual)
     if len(lessons.squares) == len(past.lessons.squares) or not is_due(lessons):
-        return reference, replace(past, lessons=lessons)
+        return reference, past._replace(lessons=lessons)
     weight = weight_of(lessons.squares)
     if weight is None:
-        return reference, replace(past, lessons=lessons)
+        return reference, past._replace(lessons=lessons)
     sharp = reference.sharp._replace(weight=weight)
     patch = block_patch(sharp.around, sharp.size)
     try:
         template = build_template(patch, sharp.warp, weight=weight, blur_px=sharp.blur_px)
     except np.linalg.LinAlgError:
-        return reference, replace(past, lessons=lessons)
-    return replace(reference, template=template, sharp=sharp), replace(past, lessons=lessons)
+        return reference, past._replace(lessons=lessons)
+    return replace(reference, template=template, sharp=sharp), past._replace(lessons=lessons)

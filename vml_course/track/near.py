@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from vml_course.correlate.icgn import Match, Outcome, match
+from vml_course.correlate.icgn import UNKNOWN_PACE, Match, Outcome, Pace, match
 from vml_course.correlate.template import Template
 from vml_course.model.arrays import FloatArray
 from vml_course.model.frame import Luma
@@ -39,7 +39,7 @@ def find_near(
     In the second picture both templates are tried: when the plain one fits better, the reference is smeared
     already, by as much as the motion between the two says.
     """
-    plain = _match(luma, reference.template, guess.pose, rules, guess)
+    plain = _match(luma, reference.template, guess.pose, rules, guess, past.pace)
     if not rules.shutter:
         return plain, None
     here = plain.pose if plain.outcome is Outcome.CONVERGED else guess.pose
@@ -115,5 +115,7 @@ def _smeared(
     return found
 
 
-def _match(luma: Luma, template: Template, pose: FloatArray, rules: Rules, guess: Guess) -> Match:
-    return match(luma, template, pose, max_iterations=rules.max_iterations, max_shift_px=guess.pull_px)
+def _match(
+    luma: Luma, template: Template, pose: FloatArray, rules: Rules, guess: Guess, pace: Pace = UNKNOWN_PACE
+) -> Match:
+    return match(luma, template, pose, max_iterations=rules.max_iterations, max_shift_px=guess.pull_px, pace=pace)

@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from vml_course.correlate.icgn import UNKNOWN_PACE, Pace
 from vml_course.correlate.template import Template
 from vml_course.model.arrays import FloatArray
 from vml_course.track.blur import Sharp
@@ -46,9 +47,8 @@ class Reference:
     sharp: Sharp
 
 
-@dataclass(frozen=True, eq=False)
-class Past:
-    """What is remembered of a point.
+class Past(NamedTuple):
+    """What is remembered of a point; one is made a picture and point, so it is a plain tuple.
 
     Attributes
     ----------
@@ -63,6 +63,8 @@ class Past:
         How the reference itself is smeared; None until the second picture has told.
     lessons : Lessons
         What the first pictures tell of the block's pixels.
+    pace : Pace
+        How the steps of its matches shrink.
     """
 
     poses: tuple[FloatArray, ...]
@@ -71,6 +73,7 @@ class Past:
     usual_zncc: float = 1.0
     own_smear_px: FloatArray | None = None
     lessons: Lessons = NO_LESSONS
+    pace: Pace = UNKNOWN_PACE
 
 
 class Guess(NamedTuple):

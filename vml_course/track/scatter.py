@@ -12,10 +12,11 @@ alike, so that it does not scatter. The scatter therefore takes the place of the
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
-from vml_course.model.arrays import FloatArray
+from vml_course.model.arrays import FloatArray, IntArray
 from vml_course.model.track import Track
 
 FOURTH = np.array([1.0, -4.0, 6.0, -4.0, 1.0])
@@ -61,27 +62,47 @@ def scatter_px(xy_px: FloatArray) -> FloatArray:
 
 def stretches(four: FloatArray, start: int, end: int) -> list[tuple[int, int]]:
     """Return first and last + 1 of the pictures of each stretch, from fourth differences, shape (n - 4, 2)."""
-    together = _inside(four, start, end)
-    best, where = _cost(together), None
-    for cut in range(start + LEAST + 4, end - LEAST - 3):
-        parts = _inside(four, start, cut), _inside(four, cut, end)
-        # the differences across the cut hold the hit: they count like the others of both sides
-        share = len(together) / max(sum(len(part) for part in parts), 1)
-        cost = share * sum(_cost(part) for part in parts) + GAIN
-        if cost < best:
-            best, where = cost, cut
-    if where is None:
+    return _split(_Sums.of(four), start, end)
+
+
+class _Sums(NamedTuple):
+    """Running sums over the first k differences, shape (n - 3,): how many there are, and their squares."""
+
+    count: FloatArray
+    squares: FloatArray
+
+    @classmethod
+    def of(cls, four: FloatArray) -> _Sums:
+        rows = (four**2).sum(axis=1)
+        found = np.isfinite(rows)
+        ahead = np.zeros(1)
+        return cls(
+            np.concatenate([ahead, np.cumsum(found)]), np.concatenate([ahead, np.cumsum(np.where(found, rows, 0.0))])
+        )
+
+    def cost(self, start: IntArray | int, end: IntArray | int) -> tuple[FloatArray, FloatArray]:
+        """Return twice the negative log-likelihood of the differences inside stretches, but for a constant, and their number."""
+        last = np.maximum(start, np.asarray(end) - (len(FOURTH) - 1))
+        count = self.count[last] - self.count[start]
+        mean = (self.squares[last] - self.squares[start]) / np.maximum(2.0 * count, 1.0)
+        return 2.0 * count * np.log(np.maximum(mean, 0.0) + SMALLEST_PX**2), count
+
+
+def _split(sums: _Sums, start: int, end: int) -> list[tuple[int, int]]:
+    cuts = np.arange(start + LEAST + 4, end - LEAST - 3)
+    if not len(cuts):
         return [(start, end)]
-    return stretches(four, start, where) + stretches(four, where, end)
+    together, count = sums.cost(start, end)
+    before, after = sums.cost(start, cuts), sums.cost(cuts, end)
+    # the differences across a cut hold the hit: they count like the others of both sides
+    share = count / np.maximum(before[1] + after[1], 1.0)
+    costs = share * (before[0] + after[0]) + GAIN
+    best = int(np.argmin(costs))
+    if not costs[best] < together:
+        return [(start, end)]
+    return _split(sums, start, int(cuts[best])) + _split(sums, int(cuts[best]), end)
 
 
 def _inside(four: FloatArray, start: int, end: int) -> FloatArray:
     part = four[start : max(start, end - 4)]
     return np.asarray(part[np.isfinite(part[:, 0])])
-
-
-def _cost(found: FloatArray) -> float:
-    """Return twice the negative log-likelihood of differences of one size, but for a constant."""
-    if not len(found):
-        return 0.0
-    return 2.0 * len(found) * float(np.log(np.mean(found**2) + SMALLEST_PX**2))

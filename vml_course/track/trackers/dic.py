@@ -31,6 +31,7 @@ from vml_course.track.records import Past, Reference, Rules
 
 LARGEST_CORNER_SIGMA_PX = 0.25  # beyond this a freedom of the warp is noise: take the next smaller warp
 UPRIGHT = np.array([1.0, 0.0, 0.0, 1.0])
+_NOTHING = (float("nan"),) * 8
 
 
 @dataclass(frozen=True, eq=False)
@@ -137,12 +138,13 @@ def choose_warp(hessian: FloatArray, noise: float, half_px: float) -> str:
 
 
 def _sighting(matches: tuple[Match | None, ...]) -> Sighting:
-    p = len(matches)
-    xy, sigma, zncc = np.full((p, 2), np.nan), np.full(p, np.nan), np.full(p, np.nan)
-    gradient, iterations = np.full((p, 4), np.nan), np.zeros(p, np.int64)
-    status = np.full(p, Status.LOST, np.int8)
-    for k, found in enumerate(matches):
-        if found is not None:
-            xy[k], gradient[k] = found.pose[:2], found.pose[2:] - UPRIGHT
-            sigma[k], zncc[k], iterations[k], status[k] = found.sigma_px, found.zncc, found.iterations, Status.AUTO
-    return Sighting(xy, sigma, zncc, iterations, status, gradient)
+    rows = [_NOTHING if found is None else (*found.pose.tolist(), found.sigma_px, found.zncc) for found in matches]
+    table = np.array(rows, dtype=np.float64).reshape(-1, len(_NOTHING))
+    return Sighting(
+        xy_px=table[:, :2],
+        sigma_px=table[:, 6],
+        zncc=table[:, 7],
+        iterations=np.array([0 if found is None else found.iterations for found in matches], np.int64),
+        status=np.array([Status.LOST if found is None else Status.AUTO for found in matches], np.int8),
+        gradient=table[:, 2:6] - UPRIGHT,
+    )
