@@ -200,6 +200,8 @@ def _facts(tracked: Tracked, points: list[PointSummary], written: tuple[Path, ..
                 "lost": one.frames - one.found,
                 "worst_zncc": one.worst_zncc,
                 "median_sigma_px": one.median_sigma_px,
+                "renewed_at": one.renewed_at,
+                "drift_px": one.drift_px,
             }
             for one in points
         },

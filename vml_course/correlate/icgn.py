@@ -110,7 +110,7 @@ class Match(NamedTuple):
     pace: Pace
 
 
-def match(
+def match(  # noqa: PLR0913 - one match is these numbers
     image: NDArray[np.uint8],
     template: Template,
     start: FloatArray,
@@ -250,7 +250,7 @@ def gauss_newton_step(template, sums, step):  # type: ignore[no-untyped-def] # n
 
 @njit(**KERNEL)
 def compare(template, step, last):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN201
-    """Return the products of two steps, step with last, step with itself, last with itself, in px at the edge squared."""
+    """Return the products of two steps: with each other, each with itself; in px at the edge of the block, squared."""
     n, m = template.values.shape
     scale = 0.25 * (n * n + m * m) / 2.0  # of the linear part against the place, at the edge of the block
     along, size, size_last = 0.0, 0.0, 0.0
@@ -386,49 +386,64 @@ def judge(template, sampled, sums, pose, report):  # type: ignore[no-untyped-def
 
 
 @njit(**KERNEL)
+def needs_crop(box, crop, x0, y0):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN201
+    """Whether a box, with what the spline needs around it, reaches beyond the crop at (x0, y0)."""
+    left, top, right, bottom = box
+    fits = left - x0 >= 1.0 and top - y0 >= 1.0
+    return not (fits and right - x0 < crop.shape[1] - 2.01 and bottom - y0 < crop.shape[0] - 2.01)
+
+
+@njit(**KERNEL)
+def take_step(template, pose, memory, limits, report):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN201
+    """Move the pose by a step, damped or stretched; return whether that was the last one.
+
+    memory: the step as computed, the last one as taken, share, pull, how far a corner moves now and moved before.
+    """
+    step, last, state = memory
+    products, moved, before = compare(template, step, last), state[2], state[3]
+    state[0] = damp(products, state[0], moved > 0.3 * before)
+    if 0.0 < before < GEOMETRIC_PX:
+        measure_pace(products, state[1], report)
+    state[1] = state[0] * (limits[3] if moved < GEOMETRIC_PX else 1.0)
+    for k in range(6):
+        last[k] = state[1] * step[k]
+    compose(pose, last, template.rigid)
+    state[3] = state[1] * moved
+    shrinks = limits[4] if np.isnan(report[6]) else report[6]
+    is_small = state[3] < GEOMETRIC_PX and state[3] * min(SAFETY * shrinks, 1.0) < limits[1]
+    return is_small or state[3] < limits[1]
+
+
+@njit(**KERNEL)
 def iterate(image, template, pose, limits, report, sampled):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN201
     """Run the iterations from `pose`, which is replaced; return the outcome and fill the report.
 
     limits: iterations, tolerance, largest shift, stretch, contraction; report: iterations, ZNCC, sigma, gain,
     residual's standard deviation, stretch, contraction; sampled: receives the residual.
     """
-    start = pose.copy()
-    sums, step, local = np.empty(9), np.empty(6), pose.copy()
+    start, local = pose.copy(), pose.copy()
+    sums, step = np.empty(9), np.empty(6)
+    memory = step, np.zeros(6), np.array([1.0, 1.0, 0.0, 0.0])
     crop, x0, y0 = np.empty((0, 0), np.float32), 0, 0
-    last, share, pull = np.zeros(6), 1.0, 1.0
-    outcome, before = 1, 0.0
     report[0] = 0
-    while report[0] < limits[0] and outcome == 1:
+    while report[0] < limits[0]:
         problem = place(image, pose, start, limits[2], template)
         if problem:
             return problem
-        left, top, right, bottom = bounds(pose, template)
-        fits = left - x0 >= 1.0 and top - y0 >= 1.0
-        if not (fits and right - x0 < crop.shape[1] - 2.01 and bottom - y0 < crop.shape[0] - 2.01):
-            x0, y0 = int(left) - MARGIN, int(top) - MARGIN
-            crop = np.empty((int(bottom) + MARGIN + 3 - y0, int(right) + MARGIN + 3 - x0), np.float32)
+        box = bounds(pose, template)
+        if needs_crop(box, crop, x0, y0):
+            x0, y0 = int(box[0]) - MARGIN, int(box[1]) - MARGIN
+            crop = np.empty((int(box[3]) + MARGIN + 3 - y0, int(box[2]) + MARGIN + 3 - x0), np.float32)
             spline_crop(image, template.taps, x0, y0, crop)
-        for k in range(2, 6):
-            local[k] = pose[k]
+        local[:] = pose
         local[0], local[1] = pose[0] - x0, pose[1] - y0
         sample_and_sum(crop, local, template, sampled, sums)
-        moved = gauss_newton_step(template, sums, step)
-        if moved < 0.0:
+        memory[2][2] = gauss_newton_step(template, sums, step)
+        if memory[2][2] < 0.0:
             return 4
-        products = compare(template, step, last)
-        share = damp(products, share, moved > 0.3 * before)
-        if 0.0 < before < GEOMETRIC_PX:
-            measure_pace(products, pull, report)
-        pull = share * (limits[3] if moved < GEOMETRIC_PX else 1.0)
-        for k in range(6):
-            last[k] = pull * step[k]
-        compose(pose, last, template.rigid)
         report[0] += 1
-        before = pull * moved
-        shrinks = limits[4] if np.isnan(report[6]) else report[6]
-        if before < limits[1] or (before < GEOMETRIC_PX and before * min(SAFETY * shrinks, 1.0) < limits[1]):
-            outcome = 0
-    if outcome == 0:
-        leave_residual(template, sampled, sums, step)
-        judge(template, sampled, sums, pose, report)
-    return outcome
+        if take_step(template, pose, memory, limits, report):
+            leave_residual(template, sampled, sums, step)
+            judge(template, sampled, sums, pose, report)
+            return 0
+    return 1

@@ -49,6 +49,9 @@ class Sighting:
         Values of `Status`.
     gradient : float array, shape (p, 4)
         Displacement gradients du/dx, du/dy, dv/dx, dv/dy; NaN where lost.
+    drift_px : float array, shape (p,)
+        The part of `sigma_px` that comes from references cut anew on the way; 0 as long as a point is compared with
+        its first block, NaN where lost. It rises where a reference is renewed, and at no other place.
     """
 
     xy_px: FloatArray
@@ -57,9 +60,11 @@ class Sighting:
     iterations: IntArray
     status: NDArray[np.int8]
     gradient: FloatArray
+    drift_px: FloatArray = field(default_factory=lambda: np.zeros(0))
 
     def __post_init__(self) -> None:
         axes = Axes()
+        drift_px = self.drift_px if len(self.drift_px) else np.zeros(len(self.xy_px))
         set_frozen(
             self,
             xy_px=axes.freeze("xy_px", self.xy_px, "p", 2),
@@ -68,6 +73,7 @@ class Sighting:
             iterations=axes.freeze("iterations", self.iterations, "p", dtype=np.int64),
             status=axes.freeze("status", self.status, "p", dtype=np.int8),
             gradient=axes.freeze("gradient", self.gradient, "p", 4),
+            drift_px=axes.freeze("drift_px", drift_px, "p"),
         )
 
 
@@ -82,7 +88,7 @@ class Track:
         Numbers in the source video.
     time_s : float array, shape (n,)
         0 at the clip's first frame.
-    xy_px, sigma_px, zncc, iterations, status, gradient
+    xy_px, sigma_px, zncc, iterations, status, gradient, drift_px
         As in `Sighting`, with a leading axis n.
     settings : mapping of str to (str, int or float)
         How it was tracked: method, block, ...
@@ -98,9 +104,11 @@ class Track:
     status: NDArray[np.int8]
     gradient: FloatArray
     settings: Mapping[str, str | int | float] = field(default_factory=dict)
+    drift_px: FloatArray = field(default_factory=lambda: np.zeros(0))
 
     def __post_init__(self) -> None:
         axes, p = Axes(), len(self.points)
+        drift_px = self.drift_px if len(self.drift_px) else np.zeros(np.shape(self.sigma_px))
         set_frozen(
             self,
             frame=axes.freeze("frame", self.frame, "n", dtype=np.int64),
@@ -111,12 +119,22 @@ class Track:
             iterations=axes.freeze("iterations", self.iterations, "n", p, dtype=np.int64),
             status=axes.freeze("status", self.status, "n", p, dtype=np.int8),
             gradient=axes.freeze("gradient", self.gradient, "n", p, 4),
+            drift_px=axes.freeze("drift_px", drift_px, "n", p),
         )
 
     @property
     def is_lost(self) -> NDArray[np.bool_]:
         """Where a point was not found: shape (n, p)."""
         return np.asarray(self.status == Status.LOST)
+
+    def renewals(self, point: int) -> IntArray:
+        """Return the rows from which on a point was compared with a block that was cut anew.
+
+        The block comes from the row before. A method that compares each picture with the one before has one a row.
+        """
+        drift = self.drift_px[:, point]
+        known = np.flatnonzero(np.isfinite(drift))
+        return np.asarray(known[1:][np.diff(drift[known]) > 0.0])
 
     def point_index(self, name: str) -> int:
         """Return the column of a point.

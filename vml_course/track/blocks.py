@@ -19,12 +19,13 @@ TILES = 4  # along each side of a block, whose pulls are compared
 
 
 class Found(NamedTuple):
-    """One point in one picture: place, standard deviation of a coordinate, ZNCC with the first block, steps."""
+    """One point in one picture: place, sigma of a coordinate, ZNCC with the first block, steps, drift within sigma."""
 
     xy_px: FloatArray
     sigma_px: float
     zncc: float
     iterations: int
+    drift_px: float
 
 
 def check_block(luma: Luma, name: str, point: tuple[float, float], size: int) -> None:
@@ -167,10 +168,10 @@ def first_sighting(points: FloatArray, sigma_px: FloatArray) -> Sighting:
 def sighting_of(found: Sequence[Found | None]) -> Sighting:
     """Return the sighting of points, None where lost; what a method that only shifts cannot see is NaN."""
     p = len(found)
-    xy, sigma, likeness = np.full((p, 2), np.nan), np.full(p, np.nan), np.full(p, np.nan)
+    xy, sigma, likeness, drift = np.full((p, 2), np.nan), *(np.full(p, np.nan) for _ in range(3))
     iterations, status = np.zeros(p, np.int64), np.full(p, Status.LOST, np.int8)
     for k, one in enumerate(found):
         if one is not None:
-            xy[k], sigma[k], likeness[k], iterations[k] = one
+            xy[k], sigma[k], likeness[k], iterations[k], drift[k] = one
             status[k] = Status.AUTO
-    return Sighting(xy, sigma, likeness, iterations, status, np.full((p, 4), np.nan))
+    return Sighting(xy, sigma, likeness, iterations, status, np.full((p, 4), np.nan), drift)

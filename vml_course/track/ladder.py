@@ -19,6 +19,7 @@ from vml_course.model.frame import Luma
 from vml_course.track.near import find_near
 from vml_course.track.prediction import predict
 from vml_course.track.records import Guess, Past, Reference, Rules
+from vml_course.track.renewal import notice
 
 ANGLES_RAD = np.radians([0.0, -10.0, 10.0, -20.0, 20.0, -30.0, 30.0])
 USUAL_DROP = 0.15  # of ZNCC below its usual value, before another place is tried as well
@@ -107,15 +108,15 @@ def _found(past: Past, found: Match, own_smear_px: FloatArray | None, *, is_expe
         gap = past.lost + 1
         mean_move = (found.pose[:2] - before[0][:2]) / gap
         before = (np.concatenate([found.pose[:2] - mean_move, found.pose[2:]]),)
-    return Past(
+    now = past._replace(
         poses=(found.pose, *before)[:3],
         steady=past.steady + 1 if is_expected else 0,
         lost=0,
         usual_zncc=MEMORY * past.usual_zncc + (1.0 - MEMORY) * found.zncc,
         own_smear_px=own_smear_px,
-        lessons=past.lessons,
         pace=_paced(past.pace, found.pace),
     )
+    return notice(now, found)
 
 
 def _paced(known: Pace, measured: Pace) -> Pace:

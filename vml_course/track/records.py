@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vml_course.correlate.icgn import UNKNOWN_PACE, Pace
-from vml_course.correlate.template import Template
+from vml_course.correlate.template import Template, read_only
 from vml_course.model.arrays import FloatArray
 from vml_course.track.blur import Sharp
 from vml_course.track.mask import NO_LESSONS, Lessons
@@ -26,9 +26,13 @@ class Rules(NamedTuple):
     shutter: float = 0.0
 
 
+FRESH_ZNCC = 1.0  # nothing has been compared with a new reference yet
+UPRIGHT = read_only(np.array([1.0, 0.0, 0.0, 1.0]))
+
+
 @dataclass(frozen=True, eq=False)
 class Reference:
-    """A point's block in the first picture.
+    """A point's block in the first picture, or in the one where it was renewed.
 
     Attributes
     ----------
@@ -39,12 +43,18 @@ class Reference:
         Standard deviation of a coordinate that the block's noise leads one to expect.
     sharp : Sharp
         What its template is made from.
+    base : float array, shape (4,)
+        Linear part of the block's pose against the first block, when it was cut.
+    drift_px : float
+        Standard deviation of the place where it was cut; 0 for the first block.
     """
 
     template: Template
     block: NDArray[np.float32]
     sigma_px: float
     sharp: Sharp
+    base: FloatArray = field(default_factory=lambda: UPRIGHT)
+    drift_px: float = 0.0
 
 
 class Past(NamedTuple):
@@ -65,6 +75,10 @@ class Past(NamedTuple):
         What the first pictures tell of the block's pixels.
     pace : Pace
         How the steps of its matches shrink.
+    fresh_zncc : float
+        Of the first match with this reference.
+    weak : int
+        Pictures in a row whose ZNCC was well below that.
     """
 
     poses: tuple[FloatArray, ...]
@@ -74,6 +88,8 @@ class Past(NamedTuple):
     own_smear_px: FloatArray | None = None
     lessons: Lessons = NO_LESSONS
     pace: Pace = UNKNOWN_PACE
+    fresh_zncc: float = FRESH_ZNCC
+    weak: int = 0
 
 
 class Guess(NamedTuple):

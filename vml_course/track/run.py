@@ -107,6 +107,6 @@ def _check(seeds: Sequence[Seed], fps: float | None) -> None:
 def _assemble(
     tracker: Tracker[Any], points: tuple[str, ...], index: object, time_s: FloatArray, seen: list[Sighting]
 ) -> Track:
-    fields = ("xy_px", "sigma_px", "zncc", "iterations", "status", "gradient")
+    fields = ("xy_px", "sigma_px", "zncc", "iterations", "status", "gradient", "drift_px")
     columns: dict[str, Any] = {name: np.stack([getattr(sighting, name) for sighting in seen]) for name in fields}
     return Track(points, np.asarray(index), time_s, settings=dict(tracker.settings), **columns)

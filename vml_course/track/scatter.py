@@ -68,7 +68,7 @@ def stretches(four: FloatArray, start: int, end: int) -> list[tuple[int, int]]:
 class _Sums(NamedTuple):
     """Running sums over the first k differences, shape (n - 3,): how many there are, and their squares."""
 
-    count: FloatArray
+    number: FloatArray
     squares: FloatArray
 
     @classmethod
@@ -81,9 +81,9 @@ class _Sums(NamedTuple):
         )
 
     def cost(self, start: IntArray | int, end: IntArray | int) -> tuple[FloatArray, FloatArray]:
-        """Return twice the negative log-likelihood of the differences inside stretches, but for a constant, and their number."""
+        """Return twice the negative log-likelihood of stretches, but for a constant, and the number of differences."""
         last = np.maximum(start, np.asarray(end) - (len(FOURTH) - 1))
-        count = self.count[last] - self.count[start]
+        count = self.number[last] - self.number[start]
         mean = (self.squares[last] - self.squares[start]) / np.maximum(2.0 * count, 1.0)
         return 2.0 * count * np.log(np.maximum(mean, 0.0) + SMALLEST_PX**2), count
 

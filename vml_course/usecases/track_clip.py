@@ -222,7 +222,7 @@ def _tracked(
         sha256=source.sha256,
         time_base=f"{stamps}, 0 at the first frame",
         scale_relative_sd=relative_scale_sd(calibration.stick_px) if calibration and calibration.stick_px else None,
-        warnings=(*warnings_of(source), *_lost_points(track), *_merged_points(track)),
+        warnings=(*warnings_of(source), *_lost_points(track), *_merged_points(track), *_renewed_points(track)),
         path=source.path,
         first_picture=request.start,
         picture_step=request.step,
@@ -250,3 +250,13 @@ def _merged_points(track: Track) -> Iterator[str]:
         if len(merged) and apart[0] > 5 * MERGED_PX:
             first = int(track.frame[merged[0]])
             yield f"{track.points[one]} and {track.points[other]}: on one place from frame {first} on; one has jumped."
+
+
+def _renewed_points(track: Track) -> Iterator[str]:
+    """Say where a point's block was cut anew, and what that may have added."""
+    for number, point in enumerate(track.points):
+        rows = track.renewals(number)
+        if len(rows):
+            frames = ", ".join(str(int(track.frame[row - 1])) for row in rows[:5]) + (" ..." if len(rows) > 5 else "")
+            drift = float(np.nanmax(track.drift_px[:, number]))
+            yield f"{point}: changed its look; its block was cut anew in frame {frames}; drift up to {drift:.2f} px."

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import ClassVar, final
 
 import numpy as np
@@ -19,6 +20,7 @@ from vml_course.correlate.template import (
     significant_hessian,
 )
 from vml_course.correlate.texture import noise_grey
+from vml_course.errors import SeedError
 from vml_course.model.arrays import FloatArray
 from vml_course.model.frame import Luma
 from vml_course.model.quantity import check_quantities, quantity
@@ -27,11 +29,13 @@ from vml_course.track.blocks import check_block_fits, check_texture, first_sight
 from vml_course.track.blur import Sharp
 from vml_course.track.ladder import follow
 from vml_course.track.learning import learn
-from vml_course.track.records import Past, Reference, Rules
+from vml_course.track.records import UPRIGHT, Past, Reference, Rules
+from vml_course.track.renewal import composed, is_due, renewed
 
+BLURS_PX = (0.6, 1.0)  # tried where a block as it is cannot hold every freedom of the warp
+RICHEST = next(iter(WARPS))
 LARGEST_CORNER_SIGMA_PX = 0.25  # beyond this a freedom of the warp is noise: take the next smaller warp
-UPRIGHT = np.array([1.0, 0.0, 0.0, 1.0])
-_NOTHING = (float("nan"),) * 8
+_NOTHING = (float("nan"),) * 9
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,8 +52,8 @@ class Dic:
     """The paper's method (section 3.3), with the warp, criterion and solver that today's best use.
 
     Six-parameter affine warp, zero-normalised criterion (blind to gain and offset of the light),
-    inverse-compositional Gauss-Newton, cubic B-splines; the reference is always the first picture, so
-    nothing drifts.
+    inverse-compositional Gauss-Newton, cubic B-splines; the reference is the first picture, so nothing
+    drifts, unless a block changes its look for good (see `renewal`).
 
     A block that cannot hold six parameters gets fewer: the warp is the first of affine, rigid, translation
     whose corners the block's noise would not move by more than 0.25 px (one standard deviation).
@@ -66,7 +70,7 @@ class Dic:
     give_up_frames: float = quantity(
         15, "", 1, 100000, about="pictures after which a lost point stays lost", whole=True
     )
-    blur: float = quantity(0.0, "px", 0.0, 3.0, about="Gaussian blur of both pictures before matching")
+    blur: float = quantity(0.0, "px", 0.0, 3.0, about="Gaussian blur of both pictures before matching, at least")
     shutter: float = quantity(
         0.0, "", 0.0, 1.0, about="share of the frame interval that the shutter is open; 0 leaves motion blur alone"
     )
@@ -109,23 +113,53 @@ class Dic:
             for reference, past in zip(state.references, state.pasts, strict=True)
         ]
         learned = [
-            learn(reference, past, found) for reference, (past, found) in zip(state.references, followed, strict=True)
+            self._renew(*learn(reference, past, found), found, picture)
+            for reference, (past, found) in zip(state.references, followed, strict=True)
         ]
         references, pasts = zip(*learned, strict=True) if learned else ((), ())
-        return DicState(tuple(references), tuple(pasts)), _sighting(tuple(found for _, found in followed))
+        seen = _sighting(state.references, tuple(found for _, found in followed))
+        return DicState(tuple(references), tuple(pasts)), seen
+
+    def _renew(self, reference: Reference, past: Past, found: Match | None, luma: Luma) -> tuple[Reference, Past]:
+        """Cut the block anew where it was just found, when its reference has faded and there is texture to hold."""
+        if found is None or not is_due(past):
+            return reference, past
+        try:
+            fresh = self._learn(luma, "renewed", *found.pose[:2].tolist())
+        except SeedError:
+            return reference, past
+        base = composed(found.pose[2:], reference.base)
+        drift_px = found.sigma_px + reference.drift_px  # what changes the look goes on pulling the same way
+        return replace(fresh, base=base, drift_px=drift_px), renewed(past)
 
     def _learn(self, luma: Luma, name: str, x: float, y: float) -> Reference:
         size = int(self.block)
         check_block_fits(luma, name, (x, y), size)
-        patch = cut_patch(luma, (x, y), size, self.blur)
-        check_texture(patch.values, name, (x, y))
-        noise = noise_grey(patch.values)
-        hessian = significant_hessian(patch, noise, self.blur)
-        warp = choose_warp(hessian, noise, 0.5 * (size - 1))
-        template = build_template(patch, warp, blur_px=self.blur)
-        sharp = Sharp(cut_surroundings(luma, (x, y), size, self.blur), size, warp, self.blur, None)
+        plain = cut_patch(luma, (x, y), size)
+        check_texture(plain.values, name, (x, y))
+        noise = noise_grey(plain.values)
+        blur_px, warp = self._choose(luma, (x, y), noise)
+        patch = cut_patch(luma, (x, y), size, blur_px)
+        template = build_template(patch, warp, blur_px=blur_px)
+        sharp = Sharp(cut_surroundings(luma, (x, y), size, blur_px), size, warp, blur_px, None)
         sigma = np.sqrt(np.trace(template.solve[:2, :2])) * noise  # sqrt(2): both pictures are noisy; rms of x and y
         return Reference(template, patch.values.astype(np.float32), float(sigma), sharp)
+
+    def _choose(self, luma: Luma, point: tuple[float, float], noise: float) -> tuple[float, str]:
+        """Return the least blur that lets a block hold the richest warp, and that warp.
+
+        Where noise is as strong as the texture (contrast 17, noise 9), its gradients drown the block's; blurred by a
+        pixel, the block is followed all the same.
+        """
+        size, held = int(self.block), []
+        for blur_px in (self.blur, *(blur_px for blur_px in BLURS_PX if blur_px > self.blur)):
+            patch = cut_patch(luma, point, size, blur_px)
+            warp = choose_warp(significant_hessian(patch, noise, blur_px), noise, 0.5 * (size - 1))
+            held.append((tuple(WARPS).index(warp), blur_px, warp))
+            if warp == RICHEST:
+                break
+        _, blur_px, warp = min(held)
+        return blur_px, warp
 
 
 METHOD = Dic
@@ -137,14 +171,26 @@ def choose_warp(hessian: FloatArray, noise: float, half_px: float) -> str:
     return next(held, "translation")
 
 
-def _sighting(matches: tuple[Match | None, ...]) -> Sighting:
-    rows = [_NOTHING if found is None else (*found.pose.tolist(), found.sigma_px, found.zncc) for found in matches]
+def _sighting(references: tuple[Reference, ...], matches: tuple[Match | None, ...]) -> Sighting:
+    rows = [
+        _NOTHING if found is None else _row(reference, found)
+        for reference, found in zip(references, matches, strict=True)
+    ]
     table = np.array(rows, dtype=np.float64).reshape(-1, len(_NOTHING))
     return Sighting(
         xy_px=table[:, :2],
+        gradient=table[:, 2:6] - UPRIGHT,
         sigma_px=table[:, 6],
         zncc=table[:, 7],
+        drift_px=table[:, 8],
         iterations=np.array([0 if found is None else found.iterations for found in matches], np.int64),
         status=np.array([Status.LOST if found is None else Status.AUTO for found in matches], np.int8),
-        gradient=table[:, 2:6] - UPRIGHT,
     )
+
+
+def _row(reference: Reference, found: Match) -> tuple[float, ...]:
+    drift = reference.drift_px
+    if not drift:
+        return (*found.pose.tolist(), found.sigma_px, found.zncc, 0.0)
+    linear = composed(found.pose[2:], reference.base)
+    return (*found.pose[:2].tolist(), *linear.tolist(), math.hypot(found.sigma_px, drift), found.zncc, drift)
