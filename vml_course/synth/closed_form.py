@@ -47,9 +47,18 @@ def pinned_loss(mu: float, e: float, approach: float) -> float:
     return 0.5 * mu * (1 - e * e) * approach * approach
 
 
-def free_mass(m1: float, I1: float, a1: float, m2: float) -> float:  # noqa: N803
-    """Return the effective mass along the normal of a free body, hit at lever arm a1, and a ball, in kg."""
-    return 1.0 / (1.0 / m1 + a1 * a1 / I1 + 1.0 / m2)
+def free_mass(*bodies: tuple[float, float, float]) -> float:
+    """Return the effective mass along the normal of free bodies, 1 / Σ (1/m + a²/I), in kg.
+
+    Parameters
+    ----------
+    *bodies : (float, float, float)
+        Mass, inertia about the centre, and lever arm of the normal about the centre, of each.
+
+    >>> free_mass((2.0, 1.0, 0.0), (2.0, 1.0, 0.0))
+    1.0
+    """
+    return 1.0 / sum(1.0 / m + a * a / inertia for m, inertia, a in bodies)
 
 
 class Bounce(NamedTuple):

@@ -105,3 +105,8 @@ class Law(ABC):
         """Return pose and velocities `impact_s` before the impact, shape (b, 3) each."""
         moved = self.motion(np.array([-impact_s]))
         return moved.pose[0], moved.rate[0]
+
+
+def cross(arm: Vector | FloatArray, along: Vector | FloatArray) -> float:
+    """Return the moment of a unit vector along a line through `arm`."""
+    return float(arm[0] * along[1] - arm[1] * along[0])

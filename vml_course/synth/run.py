@@ -57,3 +57,10 @@ class Run:
     episodes: int
     other_contacts: int
     later_impulse_N_s: float  # noqa: N815
+
+    @property
+    def met(self) -> Contact:
+        """The contact of a run that has one; runs without are refused before anybody asks."""
+        if self.contact is None:
+            raise ValueError("nothing is hit")
+        return self.contact

@@ -63,11 +63,12 @@ def draw_puck(radius_m: float, px_per_m: float, seed: int, number: str, rgb: Col
     face = disc(on, (0.0, 0.0), 0.78 * radius_m)
     on.fill(face, PAPER)
     for side in (-1.0, 1.0):
-        write(on, number, (side * 0.5 * radius_m, -0.02 * radius_m), 0.34 * radius_m, INK, inside_m=face)
-    bar = box(on, (-0.42 * radius_m, 0.5 * radius_m), (0.42 * radius_m, 0.6 * radius_m))
-    on.fill(both(face, bar), rgb)
-    speckle(on, seed, f"puck {number}", 30.0, rim, 1.2)
-    draw_target(on, (0.0, 0.0), OVERSAMPLE)
+        write(on, number, (side * 0.52 * radius_m, 0.0), 0.42 * radius_m, INK, inside_m=face)
+        edge = side * 0.5 * radius_m
+        bar = box(on, (-0.4 * radius_m, edge - 0.05 * radius_m), (0.4 * radius_m, edge + 0.05 * radius_m))
+        on.fill(both(face, bar), rgb)
+    speckle(on, seed, f"puck {number}", 26.0, rim, 1.2)
+    draw_target(on, (0.0, 0.0), OVERSAMPLE, 0.26 * radius_m)
     return make_sprite(on)
 
 
