@@ -216,7 +216,7 @@ def _solve(truth: Truth, track: Track) -> ImpactSolution:
     motion = Calibration(camera.px_per_m, (camera.origin_x_px, camera.origin_y_px)).apply(track)
     model = impact_model(truth.model)
     options = ImpactOptions(**truth.declared)  # type: ignore[arg-type]
-    return model.solve(motion, {symbol: truth.given[symbol] for symbol in model.given}, options)
+    return model.solve(motion, truth.given, options)
 
 
 def _score(case: str, truth: Truth, track: Track, solution: ImpactSolution | None, note: str) -> Score:
