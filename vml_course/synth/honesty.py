@@ -23,9 +23,11 @@ RELATIVE = 1e-3
 FRAME_PX = 0.05
 
 
-def contact_checks(run: Run) -> Iterator[Check]:
-    """Yield the counts: one contact of the two that should meet, none of anything else."""
-    yield Check("contacts beside the one", float(abs(run.episodes - 1)), 0.0)
+def contact_checks(run: Run, contact: Contact, clock: Clock) -> Iterator[Check]:
+    """Yield that the two meet when they should and never again, and that nothing else meets."""
+    late = abs(contact.step - clock.impact_step) * clock.step_s
+    yield Check("bodies meet away from the impact, s", late, 1.5 * clock.step_s)
+    yield Check("further contacts", float(run.episodes - 1), 0.0)
     yield Check("contacts of other bodies", float(run.other_contacts), 0.0)
 
 

@@ -55,7 +55,7 @@ def simulate(scene: Scene, camera: Camera, seed: int, *, refine: int = 1) -> Tru
     run = law.run(clock)
     if run.contact is None:
         raise SceneRefusedError(scene.name, ["nothing is hit"])
-    counted = _hold(scene, contact_checks(run))
+    counted = _hold(scene, contact_checks(run, run.contact, clock))
     impact = read_impact(law, run, run.contact, clock)
     checks = _hold(
         scene,

@@ -94,7 +94,10 @@ def _advance(stage: Stage, recorder: _Recorder, step: int, dt: float) -> None:
     for body, push in zip(stage.bodies, stage.after if was_struck else stage.before, strict=True):
         if push:
             x, y, turn = push(body.angle + body.angular_velocity * dt, body.velocity, dt)
-            body.force, body.torque = (x, y), turn
+            if x or y:  # pymunk forgets both after every step
+                body.force = (x, y)
+            if turn:
+                body.torque = turn
     recorder.step = step
     stage.space.step(dt)
     if recorder.first and not was_struck:

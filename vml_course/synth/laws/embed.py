@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -83,7 +84,7 @@ class Embedding(Law):
     def torque(self, angle_rad: float, *, after: bool) -> float:
         """Return the torque of weight about the pivot, in N m."""
         moment = self.mass_kg * self.centre_m + after * self.pellet_mass_kg * self.depth_m
-        return -moment * GRAVITY_M_S2 * float(np.sin(angle_rad))
+        return -moment * GRAVITY_M_S2 * math.sin(angle_rad)
 
     def motion(self, time_s: FloatArray) -> Movement:
         """Return the pellet's parabola and the swing of both."""
@@ -102,7 +103,7 @@ class Embedding(Law):
 
     def potential(self, pose: FloatArray, *, after: bool) -> float:  # noqa: ARG002 - weight acts always
         """Return the energy of height of both."""
-        risen = self.mass_kg * self.centre_m * (1.0 - float(np.cos(pose[0, 2])))
+        risen = self.mass_kg * self.centre_m * (1.0 - math.cos(pose[0, 2]))
         return GRAVITY_M_S2 * (risen + self.pellet_mass_kg * float(pose[1, 1] + self.depth_m))
 
     def unknowns(self, run: Run) -> dict[str, Realised]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -91,7 +92,7 @@ class PinnedStrike(Law):
 
     def torque(self, angle_rad: float) -> float:
         """Return the torque about the pivot of weight and drive, in N m."""
-        return self.drive_torque_N_m - self.gravity_moment_N_m * float(np.sin(angle_rad))
+        return self.drive_torque_N_m - self.gravity_moment_N_m * math.sin(angle_rad)
 
     def motion(self, time_s: FloatArray) -> Movement:
         """Return swing and flight."""
@@ -114,7 +115,7 @@ class PinnedStrike(Law):
     def potential(self, pose: FloatArray, *, after: bool) -> float:
         """Return the work of weights, drive and friction since the impact."""
         angle = float(pose[0, 2])
-        lifted = self.gravity_moment_N_m * (1.0 - float(np.cos(angle))) - self.drive_torque_N_m * angle
+        lifted = self.gravity_moment_N_m * (1.0 - math.cos(angle)) - self.drive_torque_N_m * angle
         return lifted + self.other.potential(pose[1, :2] - self.ball_m, after=after)
 
     def unknowns(self, run: Run) -> dict[str, Realised]:

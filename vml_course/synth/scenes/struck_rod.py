@@ -55,8 +55,10 @@ class StruckRod(Scene):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if self.offset_m > self.rod_length_m / 2:
-            raise InputError("offset_m (b)", f"at most half of L, {self.rod_length_m / 2:g} m", f"{self.offset_m:g} m")
+        straight = self.rod_length_m / 2 - self.rod_half_width_m
+        if self.offset_m > straight:
+            most = f"at most {straight:.4g} m, where the rod's flank ends"
+            raise InputError("offset_m (b)", most, f"{self.offset_m:g} m")
 
     def law(self) -> FreeStrike:
         """Return the physics in numbers."""

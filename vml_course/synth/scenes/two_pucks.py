@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
+from vml_course.errors import InputError
 from vml_course.model.camera import Camera
 from vml_course.model.quantity import quantity
 from vml_course.synth.laws.free import Free, FreeStrike
@@ -16,6 +17,7 @@ from vml_course.synth.props.lab import draw_air_table
 from vml_course.synth.scene import Marker, Scene
 
 BLUE = (48.0, 94.0, 168.0)
+SLOWEST_M_S = 0.1
 RED = (184.0, 62.0, 52.0)
 
 
@@ -46,6 +48,14 @@ class TwoPucks(Scene):
     drift_m_s: float = quantity(0.0, "m/s", -1.0, 1.0, about="speed of puck 2 up the picture, before the impact")
     puck_a_radius_m: float = quantity(0.05, "m", 0.03, 0.07, about="radius of puck 1")
     puck_b_radius_m: float = quantity(0.042, "m", 0.03, 0.07, about="radius of puck 2")
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        angle = math.radians(self.normal_deg)
+        closing = self.speed_m_s * math.cos(angle) - self.drift_m_s * math.sin(angle)
+        if closing < SLOWEST_M_S:
+            wanted = f"speeds with which the pucks close in by at least {SLOWEST_M_S:g} m/s"
+            raise InputError("speed_m_s (v)", wanted, f"{closing:.3g} m/s", "Nothing would be hit.")
 
     def law(self) -> FreeStrike:
         """Return the physics in numbers."""
