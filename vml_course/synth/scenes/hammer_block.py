@@ -99,9 +99,10 @@ class HammerBlock(Scene):
         return {"m": self.block_mass_kg, "L": self.hammer_length_m}
 
     def declared(self) -> dict[str, str | float | bool]:
-        """Return which points are tracked, and that the block does not fly."""
+        """Return which points are tracked, that the block does not fly, and that it takes time to slow down."""
+        points: dict[str, str | float | bool] = {"striker": "head", "struck": "block", "knee": "pivot"}
         drive = "free" if self.drive_torque_N_m else "none"
-        return {"striker": "head", "struck": "block", "knee": "pivot", "flight": "never", "drive": drive}
+        return points | {"flight": "never", "drive": drive, "window_s": 0.15}
 
     def look(self, camera: Camera, seed: int) -> Look:
         """Draw the room with stand and bench, the hammer and the block."""

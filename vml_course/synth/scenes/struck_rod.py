@@ -87,9 +87,9 @@ class StruckRod(Scene):
         return {"m": self.ball_mass_kg, "M": self.rod_mass_kg, "b": self.offset_m}
 
     def declared(self) -> dict[str, str | float | bool]:
-        """Return which points are tracked, and that no gravity acts."""
+        """Return which points are tracked, that no gravity acts, and that nothing changes for a long time."""
         points: dict[str, str | float | bool] = {"striker": "tail", "striker_mark": "tip", "struck": "ball"}
-        return points | {"flight": "never", "gravity_m_s2": 0.0}
+        return points | {"flight": "never", "gravity_m_s2": 0.0, "window_s": 0.1}
 
     def look(self, camera: Camera, seed: int) -> Look:
         """Draw table, rod and puck."""

@@ -89,7 +89,7 @@ class SwingingDoor(Scene):
     def declared(self) -> dict[str, str | float | bool]:
         """Return which points are tracked, and that neither gravity nor a drive acts."""
         points: dict[str, str | float | bool] = {"striker": "edge", "struck": "ball", "knee": "hinge"}
-        return points | {"flight": "never", "gravity_m_s2": 0.0, "drive": "none"}
+        return points | {"flight": "never", "gravity_m_s2": 0.0, "drive": "none", "window_s": 0.08}
 
     def look(self, camera: Camera, seed: int) -> Look:
         """Draw the floor with the wall, the door and the ball."""

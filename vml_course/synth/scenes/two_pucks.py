@@ -80,8 +80,9 @@ class TwoPucks(Scene):
         return {"m": self.puck_b_mass_kg}
 
     def declared(self) -> dict[str, str | float | bool]:
-        """Return which points are tracked, and that no gravity acts."""
-        return {"striker": "puck_a", "struck": "puck_b", "flight": "never", "gravity_m_s2": 0.0}
+        """Return which points are tracked, that no gravity acts, and that nothing changes for a long time."""
+        points: dict[str, str | float | bool] = {"striker": "puck_a", "struck": "puck_b"}
+        return points | {"flight": "never", "gravity_m_s2": 0.0, "window_s": 0.12}
 
     def look(self, camera: Camera, seed: int) -> Look:
         """Draw table and pucks."""
