@@ -63,6 +63,8 @@ class ImpactTruth:
         Which of the bodies these are; the same one where a body meets the ground.
     unknowns : mapping of str to Realised
         What students look for, by the textbook's letter: `e`, `I`, ...
+    duration_s : float
+        How long the contact lasts, from `time_s` on; 0 is an instant.
     """
 
     time_s: float
@@ -77,6 +79,7 @@ class ImpactTruth:
     striker: int
     struck: int
     unknowns: Mapping[str, Realised]
+    duration_s: float = 0.0
 
     def __post_init__(self) -> None:
         axes = Axes()

@@ -53,6 +53,11 @@ class Law(ABC):
     about_m: Vector = (0.0, 0.0)
 
     @property
+    def duration_s(self) -> float:
+        """How long the contact lasts: an instant, unless a law says otherwise."""
+        return 0.0
+
+    @property
     @abstractmethod
     def arm_m(self) -> float:
         """Lever arm of the normal about the striker's origin."""
@@ -90,12 +95,8 @@ class Law(ABC):
         """Return what students look for, by symbol, as the run realised it."""
 
     @abstractmethod
-    def stage(self, impact_s: float) -> Stage:
-        """Set pymunk up so that the bodies meet with the promised velocities at `impact_s`."""
-
     def run(self, clock: Clock, log_every: int | None = None) -> Run:
         """Simulate a clip; log every frame, or every so many steps."""
-        return run_stage(self.stage(clock.impact_s), clock, log_every)
 
     def kinetic(self, rate: FloatArray) -> float:
         """Return the kinetic energy in J of velocities of shape (b, 3)."""
@@ -105,6 +106,18 @@ class Law(ABC):
         """Return pose and velocities `impact_s` before the impact, shape (b, 3) each."""
         moved = self.motion(np.array([-impact_s]))
         return moved.pose[0], moved.rate[0]
+
+
+class SteppedLaw(Law):
+    """A law whose impact pymunk works out."""
+
+    @abstractmethod
+    def stage(self, impact_s: float) -> Stage:
+        """Set pymunk up so that the bodies meet with the promised velocities at `impact_s`."""
+
+    def run(self, clock: Clock, log_every: int | None = None) -> Run:
+        """Simulate a clip step by step; log every frame, or every so many steps."""
+        return run_stage(self.stage(clock.impact_s), clock, log_every)
 
 
 def cross(arm: Vector | FloatArray, along: Vector | FloatArray) -> float:

@@ -86,6 +86,7 @@ def read_impact(law: Law, run: Run, contact: Contact, clock: Clock) -> ImpactTru
         striker=law.striker,
         struck=law.struck,
         unknowns=law.unknowns(run),
+        duration_s=law.duration_s,
     )
 
 

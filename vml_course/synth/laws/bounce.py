@@ -9,7 +9,7 @@ import numpy as np
 from vml_course.model.arrays import FloatArray
 from vml_course.model.truth import Realised
 from vml_course.synth.closed_form import Bounce, glide, rough_bounce
-from vml_course.synth.law import Answer, Law, Movement
+from vml_course.synth.law import Answer, Movement, SteppedLaw
 from vml_course.synth.run import Run
 from vml_course.synth.stage import GRAVITY_M_S2, OVERLAP_M, Stage, Vector, add_bar, add_disc, add_free, make_space
 
@@ -17,7 +17,7 @@ WIDE_M = 50.0  # of the ground, either way
 
 
 @dataclass(frozen=True)
-class GroundBounce(Law):
+class GroundBounce(SteppedLaw):
     """The point of the contact is the world's origin, the ground level; the normal points up.
 
     Where the ball slips throughout, friction is found from the impulse; where its skin comes to rest on the

@@ -10,7 +10,7 @@ import numpy as np
 from vml_course.model.arrays import FloatArray
 from vml_course.model.truth import Realised
 from vml_course.synth.closed_form import glide, swing
-from vml_course.synth.law import Answer, Law, Movement
+from vml_course.synth.law import Answer, Movement, SteppedLaw
 from vml_course.synth.run import Run
 from vml_course.synth.stage import (
     GRAVITY_M_S2,
@@ -26,7 +26,7 @@ from vml_course.synth.stage import (
 
 
 @dataclass(frozen=True)
-class Embedding(Law):
+class Embedding(SteppedLaw):
     """The pivot is the world's origin; the pellet, a particle, stops straight below it and swings along from there.
 
     In pymunk it meets a stop without restitution; once its velocity is that of the place where it sits, the two

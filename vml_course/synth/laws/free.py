@@ -10,7 +10,7 @@ import pymunk
 from vml_course.model.arrays import FloatArray
 from vml_course.model.truth import Realised
 from vml_course.synth.closed_form import free_mass
-from vml_course.synth.law import Answer, Law, Movement, cross
+from vml_course.synth.law import Answer, Movement, SteppedLaw, cross
 from vml_course.synth.run import Run
 from vml_course.synth.stage import OVERLAP_M, Stage, Vector, add_bar, add_disc, add_free, make_space
 
@@ -39,7 +39,7 @@ class Free:
 
 
 @dataclass(frozen=True)
-class FreeStrike(Law):
+class FreeStrike(SteppedLaw):
     """The first body's centre is the world's origin at the impact; both keep their velocities but for the impact.
 
     Attributes

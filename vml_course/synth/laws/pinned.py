@@ -10,14 +10,14 @@ import numpy as np
 from vml_course.model.arrays import FloatArray
 from vml_course.model.truth import Realised
 from vml_course.synth.closed_form import pair_mass, pinned_impact, swing
-from vml_course.synth.law import Answer, Law, Movement, cross
+from vml_course.synth.law import Answer, Movement, SteppedLaw, cross
 from vml_course.synth.laws.struck import Struck
 from vml_course.synth.run import Contact, Run
 from vml_course.synth.stage import GRAVITY_M_S2, Stage, Vector, add_bar, add_disc, add_pinned, make_space
 
 
 @dataclass(frozen=True)
-class PinnedStrike(Law):
+class PinnedStrike(SteppedLaw):
     """The pivot is the world's origin, angle 0 the pose at the impact; e and I are looked for.
 
     Signs: x right, y up, angles counter-clockwise.

@@ -10,6 +10,7 @@ from typing import ClassVar
 from vml_course.model.camera import Camera
 from vml_course.model.quantity import quantity
 from vml_course.synth.laws.pinned import PinnedStrike
+from vml_course.synth.laws.soft import SoftStrike, soften
 from vml_course.synth.laws.struck import Struck
 from vml_course.synth.look import Look
 from vml_course.synth.props.football import draw_football
@@ -64,11 +65,16 @@ class SoccerKick(Scene):
         9.4, "N m", 0.0, 40.0, about="the leg's weight times its centre of mass's distance from the knee"
     )
     drive_torque_N_m: float = quantity(0.0, "N m", -100.0, 100.0, about="constant muscle torque at the knee")  # noqa: N815
+    contact_ms: float = quantity(0.0, "ms", 0.0, 12.0, about="how long foot and ball touch; 0 is an instant")
 
-    def law(self) -> PinnedStrike:
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        self.law()
+
+    def law(self) -> PinnedStrike | SoftStrike:
         """Return the physics in numbers."""
         tilt = math.radians(self.normal_tilt_deg)
-        return PinnedStrike(
+        strike = PinnedStrike(
             inertia_kg_m2=self.inertia_kg_m2,
             restitution=self.restitution,
             omega_before_rad_s=self.omega_before_rad_s,
@@ -79,6 +85,7 @@ class SoccerKick(Scene):
             gravity_moment_N_m=self.gravity_moment_N_m,
             drive_torque_N_m=self.drive_torque_N_m,
         )
+        return soften(strike, 1e-3 * self.contact_ms)
 
     def markers(self) -> tuple[Marker, ...]:
         """Return foot (centre of the striking circle), knee, shin and the ball's centre."""
