@@ -1,23 +1,34 @@
 """Truth files keep every digit, or say what is wrong with them."""
 
 import json
-from dataclasses import fields
+from dataclasses import fields, replace
 
 import numpy as np
 import pytest
 
-from vml_course.errors import FileMissingError, TableError
+from vml_course.errors import FileMissingError, TableError, UnknownNameError
 from vml_course.io.truth import read_truth_csv, read_truth_json, write_truth_csv, write_truth_json
 from vml_course.model.camera import Camera
-from vml_course.model.truth import Check, ImpactTruth, Truth
+from vml_course.model.truth import Check, ImpactTruth, Realised, Truth
 
 
 @pytest.fixture
 def truth():
     frames = 3
-    numbers = {item.name: 0.1 * k for k, item in enumerate(fields(ImpactTruth), start=1)}
-    pairs = ("contact_m", "normal", "struck_before_m_s", "struck_after_m_s")
-    impact = ImpactTruth(**numbers | {name: np.array([1 / 3, 2 / 3]) for name in pairs} | {"frame_before": 1})
+    impact = ImpactTruth(
+        time_s=0.1,
+        frame_before=1,
+        contact_m=np.array([1 / 3, 2 / 3]),
+        normal=np.array([0.6, 0.8]),
+        arm_m=0.7,
+        impulse_xy_N_s=np.array([1 / 7, 2 / 7]),
+        before=np.arange(6).reshape(2, 3) / 11,
+        after=np.arange(6).reshape(2, 3) / 13,
+        mass=np.array([[0.0, 0.0, 1.8816], [0.5, 0.5, 0.004]]),
+        striker=0,
+        struck=1,
+        unknowns={"e": Realised(11 / 15, 0.7333, 0.73), "I": Realised(1.8816, 1.88, 1.9)},
+    )
     return Truth(
         scene="soccer_kick",
         parameters={"restitution": 11 / 15},
@@ -35,18 +46,48 @@ def truth():
         model="fixed-pivot",
         given={"m": 0.5},
         seed=3,
+        declared={"striker": "foot", "gravity_m_s2": 0.0},
     )
 
 
 def test_json_gives_back_every_digit(tmp_path, truth):
     write_truth_json(tmp_path / "truth.json", truth)
     back = read_truth_json(tmp_path / "truth.json")
-    for name in ("scene", "parameters", "camera", "bodies", "points", "marks_m", "checks", "given", "seed", "versions"):
+    for name in (
+        "scene",
+        "parameters",
+        "camera",
+        "bodies",
+        "points",
+        "marks_m",
+        "checks",
+        "given",
+        "declared",
+        "versions",
+    ):
         assert getattr(back, name) == getattr(truth, name)
     for name in ("time_s", "pose", "xy_m", "leg_angle_rad", "xy_px"):
         assert np.array_equal(getattr(back, name), getattr(truth, name))
     for item in fields(ImpactTruth):
         assert np.array_equal(getattr(back.impact, item.name), getattr(truth.impact, item.name))
+
+
+def test_a_scene_whose_bodies_do_not_turn_has_no_angle(tmp_path, truth):
+    flat = replace(truth, leg_angle_rad=np.zeros(0))
+    write_truth_json(tmp_path / "truth.json", flat)
+    write_truth_csv(tmp_path / "truth.csv", flat)
+    assert read_truth_json(tmp_path / "truth.json").leg_angle_rad.shape == (0,)
+    assert list(read_truth_csv(tmp_path / "truth.csv"))[-1] == "ball_y_m"
+
+
+def test_the_pinned_names_are_read_from_states_and_unknowns(truth):
+    impact = truth.impact
+    assert (impact.restitution, impact.inertia_kg_m2, impact.struck_mass_kg) == (11 / 15, 1.8816, 0.5)
+    assert (impact.omega_before_rad_s, impact.omega_after_rad_s) == (2 / 11, 2 / 13)
+    assert impact.impulse_N_s == pytest.approx(0.6 / 7 + 1.6 / 7)
+    assert impact.impulse_tangent_N_s == pytest.approx(1.2 / 7 - 0.8 / 7)
+    with pytest.raises(UnknownNameError, match="unknown: expected one of I, e, got 'mu'"):
+        impact.unknown("mu")
 
 
 def test_csv_has_exactly_the_columns_that_are_documented(tmp_path, truth):

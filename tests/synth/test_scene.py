@@ -2,14 +2,18 @@
 
 import subprocess
 import sys
+from dataclasses import fields
 
 import pytest
 
 from vml_course.errors import InputError, NumberError, OutOfRangeError, UnknownNameError
+from vml_course.kinetics.impact_model import ImpactOptions
 from vml_course.model.quantity import quantities_of
 from vml_course.synth.scene import scene_class, scene_names
 from vml_course.synth.settings import make_settings, read_settings, settable
 from vml_course.synth.simulate import simulate
+
+MARKS = ("striker", "struck", "knee", "striker_mark", "struck_mark")
 
 
 @pytest.mark.parametrize("name", scene_names())
@@ -17,7 +21,10 @@ def test_every_scene_is_honest_with_its_defaults(name):
     kind = scene_class(name)
     truth = simulate(kind(), kind.default_camera, seed=0)
     assert truth.scene == name == kind.name
-    assert set(kind.vector) <= set(truth.points)
+    assert set(kind.vector or ()) <= set(truth.points)
+    assert set(truth.impact.unknowns) <= set(kind.unknowns)
+    assert set(truth.declared) <= {item.name for item in fields(ImpactOptions)} | set(MARKS)
+    assert {str(value) for word, value in truth.declared.items() if word in MARKS} <= set(truth.points)
     assert all(item.about for item in quantities_of(kind).values())
 
 

@@ -78,8 +78,7 @@ def _print_made(made: MadeVideo, folder: Path, as_json: bool) -> None:
             "truth_csv": str(folder / "truth.csv"),
             "frames": len(truth.time_s),
             "fps": truth.camera.fps,
-            "e": impact.restitution,
-            "I": impact.inertia_kg_m2,
+            **{symbol: impact.unknown(symbol) for symbol in impact.unknowns},
             "impact_time_s": impact.time_s,
             "frame_before": impact.frame_before,
             "checks": {check.name: {"value": check.value, "limit": check.limit} for check in truth.checks},
@@ -90,7 +89,7 @@ def _print_made(made: MadeVideo, folder: Path, as_json: bool) -> None:
     typer.echo(f"{folder / 'truth.json'}  everything, with {len(truth.checks)} checks passed")
     typer.echo(f"{folder / 'truth.csv'}  {', '.join(truth.points)} in px and m")
     typer.echo(
-        f"e = {impact.restitution:.4g}, I = {impact.inertia_kg_m2:.5g} kg m^2,"
+        f"{', '.join(f'{symbol} = {impact.unknown(symbol):.5g}' for symbol in impact.unknowns)},"
         f" impact at {impact.time_s * 1e3:.2f} ms, after frame {impact.frame_before}"
     )
 

@@ -86,6 +86,7 @@ def _facts(one: Verdict) -> dict[str, Any]:
         "omega_error_pct": score.omega_error_pct,
         "restitution_error_pct": score.restitution_error_pct,
         "inertia_error_pct": score.inertia_error_pct,
+        "other_error_pct": score.other_error_pct,
     }
     points = {name: _number(value) for name, value in score.rms_px.items()}
     return {

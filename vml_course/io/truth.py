@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import asdict, fields
 from pathlib import Path
 from typing import Any
@@ -16,9 +16,9 @@ from vml_course.io.files import existing, replacing
 from vml_course.model.arrays import FloatArray
 from vml_course.model.camera import Camera
 from vml_course.model.recording import Recording
-from vml_course.model.truth import Check, ImpactTruth, Truth
+from vml_course.model.truth import Check, ImpactTruth, Realised, Truth
 
-FORMAT = "vml-truth 1"
+FORMAT = "vml-truth 2"
 
 
 def write_truth_json(path: Path, truth: Truth) -> None:
@@ -46,23 +46,23 @@ def read_truth_json(path: Path) -> Truth:
         raise TableError(str(path), f"a truth file of format {FORMAT!r}", f"{type(error).__name__}: {error}") from error
 
 
-def truth_columns(points: Iterable[str]) -> tuple[str, ...]:
-    """Return the header of truth.csv.
+def truth_columns(points: Iterable[str], *, angle: bool = True) -> tuple[str, ...]:
+    """Return the header of truth.csv, with or without the striker's angle.
 
     >>> truth_columns(["ball"])
     ('frame', 't_s', 'ball_x_px', 'ball_y_px', 'ball_x_m', 'ball_y_m', 'leg_angle_deg')
     """
     places = [f"{point}_{axis}_{unit}" for point in points for unit in ("px", "m") for axis in ("x", "y")]
-    return ("frame", "t_s", *places, "leg_angle_deg")
+    return ("frame", "t_s", *places, *(["leg_angle_deg"] if angle else []))
 
 
 def write_truth_csv(path: Path, truth: Truth) -> None:
     """Write one row a frame: number, time, every point in pixels (y down) and metres (y up), the leg's angle."""
-    frames = len(truth.time_s)
+    frames, has_angle = len(truth.time_s), bool(len(truth.leg_angle_rad))
     places = np.concatenate([truth.xy_px, truth.xy_m], axis=-1).reshape(frames, -1)
-    values = np.column_stack([truth.time_s, places, truth.leg_angle_deg])
+    values = np.column_stack([truth.time_s, places, *([truth.leg_angle_deg] if has_angle else [])])
     rows = [",".join([str(frame), *(f"{value:.9g}" for value in row)]) + "\n" for frame, row in enumerate(values)]
-    _write(path, ",".join(truth_columns(truth.points)) + "\n" + "".join(rows))
+    _write(path, ",".join(truth_columns(truth.points, angle=has_angle)) + "\n" + "".join(rows))
 
 
 def read_truth_csv(path: Path) -> dict[str, FloatArray]:
@@ -89,6 +89,8 @@ def _truth(document: dict[str, Any]) -> Truth:
     document["camera"] = Camera(**document["camera"])
     if document.get("recording"):  # truths of clips that were never stored have none
         document["recording"] = Recording(**document["recording"])
+    unknowns = document["impact"]["unknowns"]
+    document["impact"]["unknowns"] = {symbol: Realised(**values) for symbol, values in unknowns.items()}
     document["impact"] = ImpactTruth(**document["impact"])
     document["checks"] = tuple(Check(**check) for check in document["checks"])
     document["marks_m"] = {name: tuple(place) for name, place in document["marks_m"].items()}
@@ -100,11 +102,11 @@ def _truth(document: dict[str, Any]) -> Truth:
 def _plain(value: Any) -> Any:
     if isinstance(value, np.ndarray):
         return value.tolist()
-    if isinstance(value, Camera | Recording):
+    if isinstance(value, Camera | Recording | Realised):
         return asdict(value)
     if isinstance(value, tuple):
         return [asdict(item) if isinstance(item, Check) else item for item in value]
-    return dict(value) if hasattr(value, "keys") else value
+    return {name: _plain(item) for name, item in value.items()} if isinstance(value, Mapping) else value
 
 
 def _write(path: Path, text: str) -> None:

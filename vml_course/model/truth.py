@@ -27,13 +27,22 @@ class Check:
         return bool(self.value <= self.limit)
 
 
+@dataclass(frozen=True, slots=True)
+class Realised:
+    """One unknown of an impact, SI units: as the simulation realised it, twice, and as the parameters say."""
+
+    from_states: float
+    from_impulse: float
+    nominal: float
+
+
 @dataclass(frozen=True, eq=False)
 class ImpactTruth:
     """The impact as it was realised, from the states around the first contact step.
 
-    Signs: x right, y up, angular velocity counter-clockwise. The normal points from the striker to the
-    struck body; `arm_m` is the signed lever arm of that normal about the pivot, so that a point of the
-    striker at the contact approaches along the normal with `arm_m * omega`.
+    Signs: x right, y up, angular velocity counter-clockwise. The normal points from the striker to the struck
+    body; `arm_m` is the signed lever arm of that normal about the striker's origin (its pivot, or its centre where
+    it is free), so that a point of the striker at the contact approaches along the normal with `arm_m * omega`.
 
     Attributes
     ----------
@@ -43,19 +52,19 @@ class ImpactTruth:
         Last frame that shows the state before the impact.
     contact_m, normal : float array, shape (2,)
     arm_m : float
-    impulse_N_s : float
-        Contact impulse along the normal, on the struck body.
-    restitution, inertia_kg_m2 : float
-        Realised, from the states before and after.
-    restitution_by_impulse, inertia_by_impulse_kg_m2 : float
-        Realised, from the impulse and the states.
-    restitution_nominal, inertia_nominal_kg_m2 : float
-        What the scene's parameters say.
-    omega_before_rad_s, omega_after_rad_s : float
-        Angular velocity of the striker.
-    struck_before_m_s, struck_after_m_s : float array, shape (2,)
-        Velocity of the struck body's centre.
-    struck_mass_kg : float
+    impulse_xy_N_s : float array, shape (2,)
+        Contact impulse on the struck body.
+    before, after : float array, shape (b, 3)
+        Of every body: vx and vy of its origin in m/s, angular velocity in rad/s.
+    mass : float array, shape (b, 3)
+        What multiplies them in momentum and energy: kg, kg, kg m^2. A pinned body has no mass but its inertia about
+        the pivot; what is not allowed to turn has no inertia.
+    striker, struck : int
+        Which of the bodies these are; the same one where a body meets the ground.
+    unknowns : mapping of str to Realised
+        What students look for, by the textbook's letter: `e`, `I`, ...
+    duration_s : float
+        How long the contact lasts, from `time_s` on; 0 is an instant.
     """
 
     time_s: float
@@ -63,23 +72,78 @@ class ImpactTruth:
     contact_m: FloatArray
     normal: FloatArray
     arm_m: float
-    impulse_N_s: float  # noqa: N815 - the unit is newton second
-    restitution: float
-    inertia_kg_m2: float
-    restitution_by_impulse: float
-    inertia_by_impulse_kg_m2: float
-    restitution_nominal: float
-    inertia_nominal_kg_m2: float
-    omega_before_rad_s: float
-    omega_after_rad_s: float
-    struck_before_m_s: FloatArray
-    struck_after_m_s: FloatArray
-    struck_mass_kg: float
+    impulse_xy_N_s: FloatArray  # noqa: N815 - the unit is newton second
+    before: FloatArray
+    after: FloatArray
+    mass: FloatArray
+    striker: int
+    struck: int
+    unknowns: Mapping[str, Realised]
+    duration_s: float = 0.0
 
     def __post_init__(self) -> None:
         axes = Axes()
-        for name in ("contact_m", "normal", "struck_before_m_s", "struck_after_m_s"):
+        for name in ("contact_m", "normal", "impulse_xy_N_s"):
             set_frozen(self, **{name: axes.freeze(name, getattr(self, name), 2)})
+        for name in ("before", "after", "mass"):
+            set_frozen(self, **{name: axes.freeze(name, getattr(self, name), "b", 3)})
+
+    def unknown(self, symbol: str) -> float:
+        """Return the true value of an unknown, from the states before and after, SI units.
+
+        Raises
+        ------
+        UnknownNameError
+            When this impact has no such unknown.
+        """
+        if symbol not in self.unknowns:
+            raise UnknownNameError("unknown", symbol, sorted(self.unknowns))
+        return self.unknowns[symbol].from_states
+
+    @property
+    def impulse_N_s(self) -> float:  # noqa: N802 - the unit is newton second
+        """Contact impulse along the normal, on the struck body."""
+        return float(self.impulse_xy_N_s @ self.normal)
+
+    @property
+    def impulse_tangent_N_s(self) -> float:  # noqa: N802
+        """Contact impulse across the normal, to its left, on the struck body."""
+        return float(self.impulse_xy_N_s[1] * self.normal[0] - self.impulse_xy_N_s[0] * self.normal[1])
+
+    @property
+    def restitution(self) -> float:
+        """The coefficient of restitution, where it is an unknown of this impact."""
+        return self.unknown("e")
+
+    @property
+    def inertia_kg_m2(self) -> float:
+        """The striker's inertia about its pivot or centre, where it is an unknown of this impact."""
+        return self.unknown("I")
+
+    @property
+    def omega_before_rad_s(self) -> float:
+        """The striker's angular velocity before the impact."""
+        return float(self.before[self.striker, 2])
+
+    @property
+    def omega_after_rad_s(self) -> float:
+        """The striker's angular velocity after the impact."""
+        return float(self.after[self.striker, 2])
+
+    @property
+    def struck_before_m_s(self) -> FloatArray:
+        """Velocity of the struck body's centre before the impact, shape (2,)."""
+        return self.before[self.struck, :2]
+
+    @property
+    def struck_after_m_s(self) -> FloatArray:
+        """Velocity of the struck body's centre after the impact, shape (2,)."""
+        return self.after[self.struck, :2]
+
+    @property
+    def struck_mass_kg(self) -> float:
+        """Mass of the struck body."""
+        return float(self.mass[self.struck, 0])
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,7 +167,8 @@ class Truth:
     xy_m : float array, shape (n, p, 2)
         Their positions, metres, y up.
     leg_angle_rad : float array, shape (n,)
-        Angle of the striker's vector (pivot to striking point) from +x, unwrapped.
+        Angle of the striker's vector (pivot to striking point) from +x, unwrapped; nothing, shape (0,), where the
+        scene has no such vector.
     marks_m : mapping of str to (float, float)
         Still points to calibrate with, such as both ends of the scale bar.
     impact : ImpactTruth
@@ -118,6 +183,8 @@ class Truth:
         How the clip was stored, once it was; with it, the truth is enough to make every picture again.
     offset_px : float array, shape (n, 2)
         How far each frame is shifted by a camera that is held by hand; nothing in frame 0.
+    declared : mapping of str to str, float or bool
+        What the solver is told beside the given numbers, in the words of `kinetics.impact_model.ImpactOptions`.
     """
 
     scene: str
@@ -138,6 +205,7 @@ class Truth:
     seed: int
     recording: Recording | None = None
     offset_px: FloatArray = field(default_factory=lambda: np.zeros((0, 2)))
+    declared: Mapping[str, str | float | bool] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         axes = Axes()
@@ -147,7 +215,7 @@ class Truth:
             time_s=axes.freeze("time_s", self.time_s, "n"),
             pose=axes.freeze("pose", self.pose, "n", len(self.bodies), 3),
             xy_m=axes.freeze("xy_m", self.xy_m, "n", len(self.points), 2),
-            leg_angle_rad=axes.freeze("leg_angle_rad", self.leg_angle_rad, "n"),
+            leg_angle_rad=axes.freeze("leg_angle_rad", self.leg_angle_rad, "n" if len(self.leg_angle_rad) else 0),
             offset_px=axes.freeze("offset_px", offset_px, "n", 2),
         )
 

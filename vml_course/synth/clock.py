@@ -10,7 +10,7 @@ import numpy as np
 from vml_course.model.arrays import FloatArray
 
 STEPS_PER_FRAME = 100
-SHORTEST_STEP_S = 1 / 48000  # coarser steps leave the pixel tolerance (tests/synth measure it)
+LONGEST_STEP_S = 1 / 48000  # of a fast impact; longer steps leave the pixel tolerance (tests/synth measure it)
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,21 +59,24 @@ class Clock:
         return np.asarray(steps * self.step_s, dtype=np.float64)
 
 
-def set_clock(fps: float, before_s: float, after_s: float, phase: float, refine: int = 1) -> Clock:
-    """Return the clock of a clip with at least `before_s` and `after_s` around the impact.
+def set_clock(
+    fps: float, shown_s: tuple[float, float], phase: float, longest_step_s: float = LONGEST_STEP_S, refine: int = 1
+) -> Clock:
+    """Return the clock of a clip.
 
     Parameters
     ----------
     fps : float
         Frames per second.
-    before_s, after_s : float
-        Time shown before and after the impact.
+    shown_s : (float, float)
+        Time that is shown before and after the impact, at least.
     phase : float
         Where between two frames the impact falls: 0 on a frame, 0.5 half-way.
+    longest_step_s : float
     refine : int
         Divides the step further; the default is fine enough, tests use more.
     """
-    steps = refine * max(STEPS_PER_FRAME, math.ceil(1 / (SHORTEST_STEP_S * fps)))
-    before = math.ceil(before_s * fps - 1e-9)
-    after = math.ceil(phase + after_s * fps - 1e-9)
+    steps = refine * max(STEPS_PER_FRAME, math.ceil(1 / (longest_step_s * fps) - 1e-9))
+    before = math.ceil(shown_s[0] * fps - 1e-9)
+    after = math.ceil(phase + shown_s[1] * fps - 1e-9)
     return Clock(fps, steps, before + after + 1, before * steps + round(phase * steps))

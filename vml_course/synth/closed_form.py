@@ -1,14 +1,15 @@
-"""The textbook's answer for a pinned body that strikes a particle, to hold the simulation against.
+"""The textbook's answers to plane impacts, to hold the simulation against.
 
 Source: principle of angular impulse and momentum about a fixed axis with a coefficient of restitution,
 for instance Beer & Johnston, Vector Mechanics for Engineers: Dynamics, chapter on plane impulsive motion.
-Letters: I inertia about the pivot, m particle's mass, a lever arm of the contact normal about the pivot,
-w angular velocity, u the particle's velocity along the normal; 1 before, 2 after.
+Letters: I inertia about the pivot (or about the centre of a free body), m mass, a lever arm of the contact normal
+about pivot or centre, w angular velocity, u velocity along the normal; 1 before, 2 after.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import NamedTuple
 
 import numpy as np
 from scipy.integrate import solve_ivp
@@ -44,6 +45,59 @@ def pinned_impact(
 def pinned_loss(mu: float, e: float, approach: float) -> float:
     """Return the energy lost, ½ μ (1 - e²) v², in J; `approach` is the closing speed v along the normal."""
     return 0.5 * mu * (1 - e * e) * approach * approach
+
+
+def free_mass(*bodies: tuple[float, float, float]) -> float:
+    """Return the effective mass along the normal of free bodies, 1 / Σ (1/m + a²/I), in kg.
+
+    Parameters
+    ----------
+    *bodies : (float, float, float)
+        Mass, inertia about the centre, and lever arm of the normal about the centre, of each.
+
+    >>> free_mass((2.0, 1.0, 0.0), (2.0, 1.0, 0.0))
+    1.0
+    """
+    return 1.0 / sum(1.0 / m + a * a / inertia for m, inertia, a in bodies)
+
+
+class Bounce(NamedTuple):
+    """What the ground gives a ball, in N s, and whether the ball's skin comes to rest on it."""
+
+    normal: float
+    tangent: float
+    sticks: bool
+
+
+def rough_bounce(m: float, k: float, e: float, mu: float, speed: float, slip: float) -> Bounce:
+    """Return the impulses of a bounce with Coulomb friction.
+
+    Parameters
+    ----------
+    m : float
+        Mass of the ball, whose inertia is k m R².
+    k, e, mu : float
+    speed : float
+        With which the centre comes down on the ground, m/s.
+    slip : float
+        Velocity of the ball's lowest point along the ground, m/s.
+
+    >>> rough_bounce(m=1.0, k=0.4, e=0.5, mu=1.0, speed=2.0, slip=1.4)
+    Bounce(normal=3.0, tangent=-0.4, sticks=True)
+    """
+    normal = (1 + e) * m * speed
+    to_stick = -m * k / (1 + k) * slip
+    if abs(to_stick) <= mu * normal:
+        return Bounce(normal, to_stick, sticks=True)
+    return Bounce(normal, -mu * normal * float(np.sign(slip)), sticks=False)
+
+
+def glide(v: FloatArray, a: FloatArray, time_s: FloatArray, *, stops: bool = False) -> tuple[FloatArray, FloatArray]:
+    """Return way and velocity, shape (n, 2) each, under a constant acceleration; friction ends where it has stopped."""
+    if stops and np.any(a):
+        time_s = np.minimum(time_s, np.hypot(*v) / np.hypot(*a))
+    t = time_s[:, None]
+    return v * t + 0.5 * a * t * t, v + a * t
 
 
 def swing(I: float, torque: Torque, start: tuple[float, float], time_s: FloatArray) -> FloatArray:  # noqa: E741, N803

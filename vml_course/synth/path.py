@@ -13,7 +13,6 @@ import numpy as np
 
 from vml_course.model.arrays import FloatArray
 from vml_course.synth.scene import Scene
-from vml_course.synth.stepping import run_stage
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,4 +43,4 @@ def fine_path(scene: Scene, fps: float) -> Path:
     """Return the motion of a scene from one frame before its clip to one frame after, for exposures reach there."""
     clock = scene.clock(fps)
     longer = replace(clock, frame_count=clock.frame_count + 2, impact_step=clock.impact_step + clock.steps_per_frame)
-    return Path(-1.0 / fps, clock.step_s, run_stage(scene.build(longer), longer, log_every=1).pose)
+    return Path(-1.0 / fps, clock.step_s, scene.law().run(longer, log_every=1).pose)

@@ -18,8 +18,8 @@ from vml_course.errors import UnknownNameError
 from vml_course.model.camera import Camera
 from vml_course.model.quantity import check_quantities, quantity
 from vml_course.synth import scenes
-from vml_course.synth.clock import Clock, set_clock
-from vml_course.synth.stage import PinnedStrike, Stage
+from vml_course.synth.clock import LONGEST_STEP_S, Clock, set_clock
+from vml_course.synth.law import Law
 
 if TYPE_CHECKING:
     from vml_course.synth.look import Look
@@ -59,19 +59,31 @@ class Scene(ABC):
         One line for a list.
     model : str
         Name of the impact model in `kinetics` that solves it.
+    story : str
+        What the handout says: what is seen, what is known, what is looked for.
+    unknowns : mapping of str to str
+        What students look for: symbol, and what it means.
     default_camera : Camera
     bodies : tuple of str
         The moving bodies, striker first.
-    vector : (str, str)
-        The points from which to which the striker's angle is measured.
+    vector : (str, str), optional
+        The points from which to which the striker's angle is measured, where it turns.
+    seen_s : float
+        How long, either side of the impact, everything must stay in the picture.
+    longest_step_s : float
+        The time step is no longer than this; slow scenes may take longer ones.
     """
 
     name: ClassVar[str]
     title: ClassVar[str]
     model: ClassVar[str]
+    story: ClassVar[str]
+    unknowns: ClassVar[Mapping[str, str]]
     default_camera: ClassVar[Camera]
-    bodies: ClassVar[tuple[str, str]]
-    vector: ClassVar[tuple[str, str]]
+    bodies: ClassVar[tuple[str, ...]]
+    vector: ClassVar[tuple[str, str] | None] = None
+    seen_s: ClassVar[float] = 0.04
+    longest_step_s: ClassVar[float] = LONGEST_STEP_S
 
     time_before_s: float = quantity(0.05, "s", 0.04, 0.1, about="time shown before the impact")
     time_after_s: float = quantity(0.05, "s", 0.04, 0.1, about="time shown after the impact")
@@ -82,15 +94,12 @@ class Scene(ABC):
 
     def clock(self, fps: float, refine: int = 1) -> Clock:
         """Return frames and steps of the clip; `refine` divides the time step further."""
-        return set_clock(fps, self.time_before_s, self.time_after_s, self.impact_phase, refine)
+        shown_s = self.time_before_s, self.time_after_s
+        return set_clock(fps, shown_s, self.impact_phase, self.longest_step_s, refine)
 
     @abstractmethod
-    def strike(self) -> PinnedStrike:
+    def law(self) -> Law:
         """Return the physics in numbers: what the scene promises."""
-
-    @abstractmethod
-    def build(self, clock: Clock) -> Stage:
-        """Set the physics up in pymunk, so that the impact falls on the clock's."""
 
     @abstractmethod
     def markers(self) -> tuple[Marker, ...]:
@@ -103,6 +112,10 @@ class Scene(ABC):
     @abstractmethod
     def given(self) -> dict[str, float]:
         """Return what the solver is told, by symbol, SI units."""
+
+    def declared(self) -> dict[str, str | float | bool]:
+        """Return what the solver is told beside it: fields of `kinetics.impact_model.ImpactOptions`."""
+        return {}
 
     @abstractmethod
     def look(self, camera: Camera, seed: int) -> Look:

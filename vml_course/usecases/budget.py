@@ -28,6 +28,8 @@ class Limits:
     worst_time_error_ms : float
     omega_error_pct, restitution_error_pct, inertia_error_pct : float
         Of the striker's angular velocity before the impact, of e and I.
+    other_error_pct : float
+        Of whatever else a scene's students look for, such as a coefficient of friction.
     """
 
     worst_rms_px: float
@@ -37,6 +39,7 @@ class Limits:
     omega_error_pct: float
     restitution_error_pct: float
     inertia_error_pct: float
+    other_error_pct: float
 
 
 def read_budget(path: Path | None = None) -> dict[str, dict[str, float]]:

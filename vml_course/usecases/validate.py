@@ -15,7 +15,7 @@ import numpy as np
 
 from vml_course.errors import VmlError
 from vml_course.kinetics.impact_model import ImpactOptions
-from vml_course.kinetics.models import impact_model
+from vml_course.kinetics.models import impact_model, model_names
 from vml_course.model.arrays import FloatArray
 from vml_course.model.motion import Calibration
 from vml_course.model.quantity import quantities_of
@@ -32,6 +32,7 @@ from vml_course.usecases.track_clip import TrackRequest, track_clip
 SEED = 20
 WITHIN_95 = 1.96
 QUICK = (("clean", "dic"), ("compressed", "dic"), ("compressed", "flow"), ("compressed", "block"), ("blurred", "dic"))
+LIMITED = {"omega_error_pct": "omega1", "restitution_error_pct": "e", "inertia_error_pct": "I"}
 Progress = Callable[[int, int], None]
 
 
@@ -74,6 +75,8 @@ class Score:
     ----------
     rms_px : mapping of str to float
         Of every point, over the pictures in which it was found.
+    error_pct : mapping of str to float
+        Of the striker's angular velocity `omega1` and of each unknown of the scene, by symbol.
     coverage_pct : float
         Share of coordinates within 1.96 of their sigma.
     note : str
@@ -85,15 +88,34 @@ class Score:
     lost_pictures: int
     coverage_pct: float
     worst_time_error_ms: float
-    omega_error_pct: float
-    restitution_error_pct: float
-    inertia_error_pct: float
+    error_pct: Mapping[str, float]
     note: str = ""
 
     @property
     def worst_rms_px(self) -> float:
         """Of the worst point."""
         return float(np.max(list(self.rms_px.values())))
+
+    @property
+    def omega_error_pct(self) -> float:
+        """Of the striker's angular velocity before the impact."""
+        return self.error_pct.get("omega1", float("nan"))
+
+    @property
+    def restitution_error_pct(self) -> float:
+        """Of e."""
+        return self.error_pct.get("e", float("nan"))
+
+    @property
+    def inertia_error_pct(self) -> float:
+        """Of I."""
+        return self.error_pct.get("I", float("nan"))
+
+    @property
+    def other_error_pct(self) -> float:
+        """Of the worst of all other unknowns."""
+        others = [error for symbol, error in self.error_pct.items() if symbol not in LIMITED.values()]
+        return float(np.max(others)) if others else float("nan")
 
 
 @dataclass(frozen=True)
@@ -106,13 +128,15 @@ class Verdict:
 
 
 def cases(*, quick: bool = False) -> list[Case]:
-    """Return the matrix: every scene, condition and method, or the quick part of it.
+    """Return the matrix: every scene that can be solved, condition and method, or the quick part of it.
 
-    A condition is left out as long as the camera does not know its fields.
+    A scene is left out as long as there is no model of its impact, a condition as long as the camera does not
+    know its fields.
     """
     known = set(quantities_of(scene_class(scene_names()[0]).default_camera))
     conditions = [condition for condition in CONDITIONS if set(condition.camera) <= known]
-    matrix = [Case(s, c, m) for s in scene_names() for c in conditions for m in tracker_names()]
+    solvable = [name for name in scene_names() if scene_class(name).model in model_names()]
+    matrix = [Case(s, c, m) for s in solvable for c in conditions for m in tracker_names()]
     return [case for case in matrix if not quick or (case.condition.name, case.method) in QUICK]
 
 
@@ -165,9 +189,13 @@ def judge(score: Score, limits: Limits) -> Verdict:
 
 
 def _compared(score: Score, limits: Limits) -> Iterator[tuple[str, float, float]]:
+    """Yield limits with what they limit; those of quantities that the scene does not have are left out."""
+    has_others = bool(set(score.error_pct) - set(LIMITED.values()))
     for limit in fields(Limits):
-        if limit.name != "coverage_least_pct":
-            yield limit.name, getattr(score, limit.name), getattr(limits, limit.name)
+        name, symbol = limit.name, LIMITED.get(limit.name)
+        absent = (symbol and symbol not in score.error_pct) or (name == "other_error_pct" and not has_others)
+        if name != "coverage_least_pct" and not absent:
+            yield name, getattr(score, name), getattr(limits, name)
 
 
 def _render(case: Case, folder: Path) -> MadeVideo:
@@ -184,20 +212,20 @@ def _settings(case: Case) -> dict[str, float]:
 
 def _solve(truth: Truth, track: Track) -> ImpactSolution:
     """Solve in metres, by the true scale: what is left is the error of tracking and solving."""
-    camera, scene = truth.camera, scene_class(truth.scene)
+    camera = truth.camera
     motion = Calibration(camera.px_per_m, (camera.origin_x_px, camera.origin_y_px)).apply(track)
-    model, pivot, striker = impact_model(truth.model), *scene.vector
-    struck = next(marker.name for marker in scene(**truth.parameters).markers() if marker.body == scene.bodies[1])
-    options = ImpactOptions(striker=striker, struck=struck, knee=pivot)
-    return model.solve(motion, {symbol: truth.given[symbol] for symbol in model.given}, options)
+    model = impact_model(truth.model)
+    options = ImpactOptions(**truth.declared)  # type: ignore[arg-type]
+    return model.solve(motion, truth.given, options)
 
 
 def _score(case: str, truth: Truth, track: Track, solution: ImpactSolution | None, note: str) -> Score:
     offset = track.xy_px - truth.xy_px[: len(track.frame)]
     found, impact = np.isfinite(offset[1:]), truth.impact
     within = np.abs(offset[1:]) <= WITHIN_95 * track.sigma_px[1:, :, None]
-    true = {"omega1": impact.omega_before_rad_s, "e": impact.restitution, "I": impact.inertia_kg_m2}
-    off = {symbol: _off_pct(solution, symbol, value) for symbol, value in true.items()}
+    true = {symbol: impact.unknown(symbol) for symbol in impact.unknowns}
+    if impact.omega_before_rad_s and (solution is None or "omega1" in solution.estimates):
+        true["omega1"] = impact.omega_before_rad_s
     missing = len(truth.time_s) - len(track.frame)  # pictures that never came out of the file
     return Score(
         case=case,
@@ -205,9 +233,7 @@ def _score(case: str, truth: Truth, track: Track, solution: ImpactSolution | Non
         lost_pictures=int(track.is_lost.sum()) + missing,
         coverage_pct=100.0 * float(within[found].mean()) if found.any() else 0.0,
         worst_time_error_ms=1e3 * float(np.abs(track.time_s - truth.time_s[: len(track.frame)]).max()),
-        omega_error_pct=off["omega1"],
-        restitution_error_pct=off["e"],
-        inertia_error_pct=off["I"],
+        error_pct={symbol: _off_pct(solution, symbol, value) for symbol, value in true.items()},
         note=note,
     )
 

@@ -15,9 +15,9 @@ TICK_M = 0.006
 SMALLEST_TARGET_PX = 7.0
 
 
-def draw_target(on: Canvas, centre: Point, samples_per_px: float) -> None:
+def draw_target(on: Canvas, centre: Point, samples_per_px: float, radius_m: float = TARGET_M) -> None:
     """Draw a disc of two black and two white quarters that meet in `centre`."""
-    radius = max(TARGET_M, SMALLEST_TARGET_PX * samples_per_px / on.samples_per_m)
+    radius = max(radius_m, SMALLEST_TARGET_PX * samples_per_px / on.samples_per_m)
     (x, y), reach = centre, 1.2 * radius
     on = on.near((x - reach, y - reach), (x + reach, y + reach))
     rim = disc(on, centre, radius)

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
 from vml_course.model.camera import Camera
 from vml_course.model.quantity import quantity
-from vml_course.synth.clock import Clock
+from vml_course.synth.laws.pinned import PinnedStrike
+from vml_course.synth.laws.soft import SoftStrike, soften
+from vml_course.synth.laws.struck import Struck
 from vml_course.synth.look import Look
 from vml_course.synth.props.football import draw_football
 from vml_course.synth.props.gym import draw_gym
 from vml_course.synth.props.leg import Leg, draw_leg
 from vml_course.synth.scene import Marker, Scene
-from vml_course.synth.stage import PinnedStrike, Stage, pinned_stage
 
 KNEE_M = 0.09
 SHIN_M = 0.08
@@ -34,6 +36,15 @@ class SoccerKick(Scene):
     name: ClassVar[str] = "soccer_kick"
     title: ClassVar[str] = "A leg that swings about the knee kicks a football off a tee"
     model: ClassVar[str] = "fixed-pivot"
+    story: ClassVar[str] = (
+        "A leg swings about its knee, which is held, and kicks a football off a tee. You know the ball's mass m, the "
+        "distance L from knee to foot, and the ball's diameter D. From the motion of foot and ball before and after "
+        "the impact, find the coefficient of restitution e and the leg's inertia I about the knee."
+    )
+    unknowns: ClassVar[Mapping[str, str]] = {
+        "e": "coefficient of restitution",
+        "I": "the leg's inertia about the knee",
+    }
     default_camera: ClassVar[Camera] = Camera()
     bodies: ClassVar[tuple[str, str]] = ("leg", "ball")
     vector: ClassVar[tuple[str, str]] = ("knee", "foot")
@@ -54,26 +65,27 @@ class SoccerKick(Scene):
         9.4, "N m", 0.0, 40.0, about="the leg's weight times its centre of mass's distance from the knee"
     )
     drive_torque_N_m: float = quantity(0.0, "N m", -100.0, 100.0, about="constant muscle torque at the knee")  # noqa: N815
+    contact_ms: float = quantity(0.0, "ms", 0.0, 12.0, about="how long foot and ball touch; 0 is an instant")
 
-    def strike(self) -> PinnedStrike:
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        self.law()
+
+    def law(self) -> PinnedStrike | SoftStrike:
         """Return the physics in numbers."""
         tilt = math.radians(self.normal_tilt_deg)
-        return PinnedStrike(
+        strike = PinnedStrike(
             inertia_kg_m2=self.inertia_kg_m2,
             restitution=self.restitution,
             omega_before_rad_s=self.omega_before_rad_s,
             head_m=(0.0, -self.leg_length_m),
             head_radius_m=self.foot_radius_m,
             normal=(math.cos(tilt), math.sin(tilt)),
-            ball_mass_kg=self.ball_mass_kg,
-            ball_radius_m=self.ball_diameter_m / 2,
+            other=Struck(self.ball_mass_kg, self.ball_diameter_m / 2, weight_after=1.0),
             gravity_moment_N_m=self.gravity_moment_N_m,
             drive_torque_N_m=self.drive_torque_N_m,
         )
-
-    def build(self, clock: Clock) -> Stage:
-        """Set the kick up in pymunk."""
-        return pinned_stage(self.strike(), clock.impact_s)
+        return soften(strike, 1e-3 * self.contact_ms)
 
     def markers(self) -> tuple[Marker, ...]:
         """Return foot (centre of the striking circle), knee, shin and the ball's centre."""
@@ -94,12 +106,16 @@ class SoccerKick(Scene):
         """Return ball mass, leg length and ball diameter."""
         return {"m": self.ball_mass_kg, "L": self.leg_length_m, "D": self.ball_diameter_m}
 
+    def declared(self) -> dict[str, str | float | bool]:
+        """Return which points are tracked."""
+        return {"striker": "foot", "struck": "ball", "knee": "knee"}
+
     def look(self, camera: Camera, seed: int) -> Look:
         """Draw the gym, the leg and the ball."""
         radius = self.ball_diameter_m / 2
         leg = Leg(self.leg_length_m, self.foot_radius_m, KNEE_M, SHIN_M, SHIN_AT)
-        tee = (float(self.strike().ball_m[0]), float(self.strike().ball_m[1]) - radius)
+        x, y = self.law().ball_m.tolist()
         return Look(
-            background=draw_gym(camera, seed, self.marks_m(), tee),
+            background=draw_gym(camera, seed, self.marks_m(), (x, y - radius)),
             sprites={"leg": draw_leg(leg, camera.px_per_m, seed), "ball": draw_football(radius, camera.px_per_m, seed)},
         )

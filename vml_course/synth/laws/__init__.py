@@ -1,0 +1,1 @@
+"""Laws of impact that scenes share, one a file."""
