@@ -78,8 +78,15 @@ def test_the_file_may_claim_another_rate_while_the_truth_keeps_its_own(tmp_path)
     assert video.truth.time_s[1] == pytest.approx(1 / 240)
 
 
-def test_the_truth_file_alone_is_enough_to_make_the_pictures_again(tmp_path):
-    video, made = make(tmp_path, "shutter=0.5", "contrast=0.5", "brightness_drift=0.2", "noise_grey=2")
+@pytest.mark.parametrize(
+    "effects",
+    [
+        ("shutter=0.5", "contrast=0.5", "brightness_drift=0.2", "noise_grey=2"),
+        ("k1=-0.1", "roll_deg=3", "pan_deg=4", "tilt_deg=-5", "rolling_shutter=0.8", "shake_px=1"),
+    ],
+)
+def test_the_truth_file_alone_is_enough_to_make_the_pictures_again(tmp_path, effects):
+    video, made = make(tmp_path, *effects)
     truth = read_truth_json(tmp_path / "truth.json")
     assert truth.recording == made.recording
     pairs = zip(render(truth, truth.recording), render(video.truth, made.recording), strict=True)

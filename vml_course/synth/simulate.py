@@ -16,6 +16,7 @@ from vml_course.model.truth import Check, ImpactTruth, Truth
 from vml_course.synth.clock import Clock
 from vml_course.synth.closed_form import pair_mass
 from vml_course.synth.honesty import contact_checks, energy_checks, frame_checks, impact_checks, place
+from vml_course.synth.rows import with_rows
 from vml_course.synth.scene import Scene
 from vml_course.synth.shake import wander
 from vml_course.synth.stepping import Contact, Run, run_stage
@@ -60,7 +61,7 @@ def simulate(scene: Scene, camera: Camera, seed: int, *, refine: int = 1) -> Tru
             *frame_checks(scene, camera, clock, run.pose),
         ],
     )
-    return _truth(scene, camera, seed, (clock, run, impact, checks))
+    return with_rows(_truth(scene, camera, seed, (clock, run, impact, checks)), scene)
 
 
 def read_impact(scene: Scene, contact: Contact, clock: Clock) -> ImpactTruth:
