@@ -25,7 +25,7 @@ class Camera:
 
     fps: float = quantity(480.0, "1/s", 24.0, 2000.0, about="frames per second")
     width_px: float = quantity(1280, "px", 64, 1920, about="width of the picture", whole=True)
-    height_px: float = quantity(720, "px", 64, 1088, about="height of the picture", whole=True)
+    height_px: float = quantity(720, "px", 64, 1080, about="height of the picture", whole=True)
     px_per_m: float = quantity(500.0, "px/m", 50.0, 5000.0, about="scale of the picture")
     origin_x_px: float = quantity(420.0, "px", -4000.0, 8000.0, about="where the world's origin is seen")
     origin_y_px: float = quantity(200.0, "px", -4000.0, 8000.0, about="where the world's origin is seen")
