@@ -128,6 +128,8 @@ class Assignment:
     ----------
     fixed : mapping of str to float
         Scene parameters that are the same for every student.
+    words : mapping of str to str
+        The scene's settings that are words, such as ``knee = "plain"``, where they are not the usual ones.
     camera, recording : mapping
         What differs from the scene's own camera and from the default recording.
     draws, derived, limits
@@ -162,6 +164,7 @@ class Assignment:
     separation: Separation = Separation()
     stick: Stick = Stick("bar_left", "bar_right", "bar")
     solve: Mapping[str, str | float] = field(default_factory=dict)
+    words: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def total_points(self) -> float:

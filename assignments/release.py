@@ -129,7 +129,8 @@ def _variants(order: Order) -> Iterator[Variant]:
 
 
 def _film_and_measure(order: Order, variant: Variant) -> tuple[Truth, ImpactSolution, Path]:
-    scene = scene_class(order.assignment.scene)(**variant.parameters)
+    settings: dict[str, Any] = {**variant.parameters, **order.assignment.words}
+    scene = scene_class(order.assignment.scene)(**settings)
     recording: dict[str, Any] = dict(variant.recording)
     made = make_video(scene, Camera(**variant.camera), Recording(**recording), variant.seed, Path(order.work))
     stick_m = given_values(order.assignment, variant)[order.assignment.stick.given]

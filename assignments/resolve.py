@@ -18,6 +18,7 @@ from assignments.model import Assignment, Draw
 from vml_course.errors import InputError, UnknownNameError, VmlError
 from vml_course.kinetics.impact_model import ImpactOptions
 from vml_course.kinetics.models import model_names
+from vml_course.model.choice import Choice, choices_of
 from vml_course.model.quantity import Quantity, quantities_of
 from vml_course.model.recording import Recording
 from vml_course.model.units import UNITS
@@ -81,6 +82,7 @@ def _scene(assignment: Assignment, scene: type[Scene]) -> Mistakes:
     yield from _unknown("camera", assignment.camera, camera)
     for name, value in assignment.camera.items():
         yield from _inside(f"camera.{name}", value, camera.get(name))
+    yield from _words(assignment.words, choices_of(scene_class(assignment.scene)))
     yield from _settings("recording", Recording, assignment.recording)
     yield from _settings("solve", ImpactOptions, assignment.solve)
     told = [given.parameter for given in assignment.givens if given.parameter]
@@ -123,6 +125,13 @@ def _settings(key: str, record: type[Any], settings: Mapping[str, Any]) -> Mista
         record(**{name: value for name, value in settings.items() if name in names})
     except VmlError as error:
         yield InputError(key, "settings that can be used", str(error).rstrip("."))
+
+
+def _words(words: Mapping[str, str], choices: Mapping[str, Choice]) -> Mistakes:
+    yield from _unknown("words", words, choices)
+    for name, word in words.items():
+        if name in choices and word not in choices[name].words:
+            yield UnknownNameError(f"words.{name}", word, choices[name].words)
 
 
 def _inside(key: str, value: float, quantity: Quantity | None) -> Mistakes:

@@ -100,6 +100,7 @@ class AssignmentFile(_Table):
     recording: dict[str, Finite | str] = {}
     solve: dict[str, Finite | str] = {}
     fixed: dict[str, Finite] = {}
+    words: dict[str, Text] = {}
     draw: dict[str, DrawTable]
     derive: dict[str, DeriveTable] = {}
     limits: dict[str, tuple[Finite, Finite]] = {}
@@ -134,6 +135,7 @@ _SAME_NAME = (
     "recording",
     "solve",
     "fixed",
+    "words",
     "limits",
 )
 

@@ -51,6 +51,10 @@ def test_an_instructors_own_copy_loads_from_any_folder(edited: Edit) -> None:
     assert load_folder(edited('title = "A soccer kick"', 'title = "My kick"')).title == "My kick"
 
 
+def test_a_plain_knee_is_an_option_of_an_assignment(edited: Edit) -> None:
+    assert load_folder(edited("[solve]", '[words]\nknee = "plain"\n[solve]')).words == {"knee": "plain"}
+
+
 def test_an_unknown_assignment_is_answered_with_those_there_are() -> None:
     with pytest.raises(UnknownNameError, match="one of soccer-kick, got 'penalty'"):
         load_assignment("penalty")
@@ -87,8 +91,10 @@ MISTAKES = [
     ("value = 1.0", 'value = 1.0\nparameter = "leg_length_m"', r"given\.bar: expected either a parameter or a value"),
     ('parameter = "camera.fps"', 'parameter = "fps"', r"given\.parameter: expected one of .*, got 'fps'"),
     ('unit = "kg"', 'unit = "stone"', r"given\.m\.unit: expected one of .*, got 'stone'"),
-    ("crf = 18", "crf = 99", r"recording: expected settings that can be used, got crf: expected 0 to 40, got 99"),
-    ("crf = 18", "bitrate = 18", r"recording: expected one of format, crf, noise_grey, .*got 'bitrate'"),
+    ("crf = 18", "crf = 99", r"recording: expected settings that can be used, got crf: expected 0 to 51, got 99"),
+    ("crf = 18", "bitrate = 18", r"recording: expected one of format, codec, crf, noise_grey, .*got 'bitrate'"),
+    ("[solve]", '[words]\nknee = "sore"\n[solve]', r"words\.knee: expected one of marked, plain, got 'sore'"),
+    ("[solve]", '[words]\nelbow = "plain"\n[solve]', r"words: expected one of texture, knee, .*got 'elbow'"),
     (
         'drive = "none"',
         'drive = "some"',

@@ -47,7 +47,7 @@ def render(
         typer.Option("--set", metavar="NAME=VALUE", help="A parameter, by name or symbol. Repeatable."),
     ] = None,
     seed: Annotated[int, typer.Option(min=0, help="Changes textures and noise, not the motion.")] = 0,
-    video_format: Annotated[Format | None, typer.Option("--format", help="mp4 is H.264, avi is MJPEG.")] = None,
+    video_format: Annotated[Format | None, typer.Option("--format", help="Kind of file, as --set format=…")] = None,
     parameters: Annotated[bool, typer.Option("--parameters", help="List what can be set, and end.")] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print the result as JSON.")] = False,
 ) -> None:
@@ -101,11 +101,11 @@ def _print_parameters(scene: str, as_json: bool) -> None:
     from rich.console import Console
     from rich.table import Table
 
-    from vml_course.synth.settings import settable
+    from vml_course.synth.settings import settable, settable_words
 
-    known = settable(scene)
+    known, words = settable(scene), settable_words(scene)
     if as_json:
-        typer.echo(json.dumps([asdict(item) for item in known.values()], indent=1))
+        typer.echo(json.dumps([*map(asdict, known.values()), *map(asdict, words.values())], indent=1))
         return
     table = Table(title=f"vml render {scene} --set NAME=VALUE", box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0))
     for name in ("name", "symbol", "default", "range"):
@@ -113,5 +113,6 @@ def _print_parameters(scene: str, as_json: bool) -> None:
     table.add_column("meaning")
     for item in known.values():
         table.add_row(item.name, item.symbol, f"{item.default:.6g}", item.range_text, item.about)
-    table.add_row("format", "", "mp4", "mp4, avi", "H.264 or MJPEG")
+    for word in words.values():
+        table.add_row(word.name, "", word.default, ", ".join(word.words), word.about)
     Console().print(table)

@@ -1,6 +1,6 @@
-"""Video out: H.264 in MP4, or MJPEG in AVI, by the file's ending.
+"""Video out: in MP4 usually H.264, in AVI usually MJPEG, by the file's ending.
 
-Luma is kept in full range (0 to 255) in both, so that a decoded plane equals the drawn one but for
+Luma is kept in full range (0 to 255) in all of them, so that a decoded plane equals the drawn one but for
 compression. No title, comment, date or encoder's name goes into the file.
 """
 
@@ -18,7 +18,7 @@ import numpy as np
 from av.container import OutputContainer
 from av.video.stream import VideoStream
 
-from vml_course.errors import FileFormatError, InputError, VideoError
+from vml_course.errors import FileFormatError, InputError, UnknownNameError, VideoError
 from vml_course.io.files import check_folder, replacing
 from vml_course.model.frame import Picture
 
@@ -35,20 +35,42 @@ class _Kind:
     stream: dict[str, str] = field(default_factory=dict)
 
 
-def _kind(path: Path, crf: int) -> _Kind:
+def _kinds(crf: int) -> dict[str, dict[str, _Kind]]:
+    """Return what can be written, by ending and codec; the usual codec of an ending comes first."""
+    mp4, avi = {"fflags": "+bitexact", "movflags": "+faststart"}, {"fflags": "+bitexact"}
+    exact = {"flags": "+bitexact"}
     # superfast: no macroblock tree, which would starve the many short pictures of a 480 1/s clip of bits.
-    h264 = {"crf": str(crf), "preset": "superfast", "flags": "+bitexact"}
-    mjpeg = {"flags": "+qscale+bitexact", "qmin": "2", "qmax": "2"}  # quantiser 2: about JPEG quality 95
-    kinds = {
-        ".mp4": _Kind("libx264", "yuv420p", {"fflags": "+bitexact", "movflags": "+faststart"}, h264),
-        ".avi": _Kind("mjpeg", "yuvj420p", {"fflags": "+bitexact"}, mjpeg),
+    h264 = {"crf": str(crf), "preset": "superfast", **exact}
+    # One frame at a time and no calling card: the same bytes on every machine, and nothing about the encoder.
+    quiet = "log-level=error:info=0:frame-threads=1"
+    hevc = {"crf": str(crf), "preset": "superfast", "x265-params": quiet, "tag": "hvc1", **exact}
+    vp9 = {"crf": str(crf), "b": "0", "deadline": "good", "cpu-used": "5", "lag-in-frames": "0", **exact}
+    # Quantiser 2 is about JPEG quality 95; beyond the usual factor of 18 each step coarsens by one.
+    steps = str(min(31, max(2, crf - 16)))
+    mjpeg = {"flags": "+qscale+bitexact", "qmin": steps, "qmax": steps}
+    return {
+        ".mp4": {
+            "h264": _Kind("libx264", "yuv420p", mp4, h264),
+            "hevc": _Kind("libx265", "yuv420p", mp4, hevc),
+            "vp9": _Kind("libvpx-vp9", "yuv420p", mp4, vp9),
+        },
+        ".avi": {
+            "mjpeg": _Kind("mjpeg", "yuvj420p", avi, mjpeg),
+            "ffv1": _Kind("ffv1", "yuv420p", avi, {"level": "3", **exact}),
+        },
     }
-    if path.suffix.lower() not in kinds:
+
+
+def _kind(path: Path, crf: int, codec: str = "") -> _Kind:
+    kinds = _kinds(crf).get(path.suffix.lower())
+    if kinds is None:
         raise FileFormatError(path.name, "a name ending in .mp4 (H.264) or .avi (MJPEG)", repr(path.suffix))
-    return kinds[path.suffix.lower()]
+    if codec and codec not in kinds:
+        raise UnknownNameError(f"{path.name}: codec", codec, kinds)
+    return kinds[codec or next(iter(kinds))]
 
 
-def write_video(path: Path, pictures: Iterable[Picture], fps: float | Fraction, crf: int = 18) -> int:
+def write_video(path: Path, pictures: Iterable[Picture], fps: float | Fraction, crf: int = 18, codec: str = "") -> int:
     """Write pictures as a video of constant rate and return how many.
 
     Parameters
@@ -60,19 +82,23 @@ def write_video(path: Path, pictures: Iterable[Picture], fps: float | Fraction, 
     fps : float or Fraction
         Pictures per second; kept exactly (29.97002997 is 30000/1001).
     crf : int
-        H.264 constant rate factor: 18 looks lossless, 0 is.
+        Constant rate factor: 18 looks lossless; in H.264 0 is. FFV1 always is.
+    codec : str
+        h264, hevc or vp9 in `.mp4`, mjpeg or ffv1 in `.avi`; the first unless told.
 
     Raises
     ------
     FileFormatError
         When the ending names no format.
+    UnknownNameError
+        When the codec is none of the format's.
     InputError
         When the rate or a picture's size is not possible.
     VideoError
         When there is no picture to write.
     """
     path = Path(path)
-    kind, rate = _kind(path, crf), exact_rate(fps)
+    kind, rate = _kind(path, crf, codec), exact_rate(fps)
     source = iter(pictures)
     first = next(source, None)
     if first is None:

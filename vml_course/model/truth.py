@@ -185,6 +185,11 @@ class Truth:
         How far each frame is shifted by a camera that is held by hand; nothing in frame 0.
     declared : mapping of str to str, float or bool
         What the solver is told beside the given numbers, in the words of `kinetics.impact_model.ImpactOptions`.
+    row_time_s : float array, shape (n, p)
+    row_xy_px : float array, shape (n, p, 2)
+    row_marks_px : float array, shape (n, m, 2)
+        With a rolling shutter only, else empty: when the row is exposed in which each tracked point is seen
+        (middle of the exposure), and where points and marks are seen then.
     """
 
     scene: str
@@ -206,6 +211,9 @@ class Truth:
     recording: Recording | None = None
     offset_px: FloatArray = field(default_factory=lambda: np.zeros((0, 2)))
     declared: Mapping[str, str | float | bool] = field(default_factory=dict)
+    row_time_s: FloatArray = field(default_factory=lambda: np.zeros((0, 0)))
+    row_xy_px: FloatArray = field(default_factory=lambda: np.zeros((0, 0, 2)))
+    row_marks_px: FloatArray = field(default_factory=lambda: np.zeros((0, 0, 2)))
 
     def __post_init__(self) -> None:
         axes = Axes()
@@ -218,15 +226,35 @@ class Truth:
             leg_angle_rad=axes.freeze("leg_angle_rad", self.leg_angle_rad, "n" if len(self.leg_angle_rad) else 0),
             offset_px=axes.freeze("offset_px", offset_px, "n", 2),
         )
+        for name, shape in (
+            ("row_time_s", (len(self.points),)),
+            ("row_xy_px", (len(self.points), 2)),
+            ("row_marks_px", (len(self.marks_m), 2)),
+        ):
+            values = np.asarray(getattr(self, name))
+            full = values if len(values) else np.zeros((0, *shape))
+            set_frozen(self, **{name: (axes if len(values) else Axes()).freeze(name, full, "n", *shape)})
+
+    @property
+    def seen_s(self) -> FloatArray:
+        """When each tracked point is seen, shape (n, p): the frame's time, or with a rolling shutter its row's."""
+        if len(self.row_time_s):
+            return self.row_time_s
+        return np.broadcast_to(self.time_s[:, None], self.xy_m.shape[:2])
 
     @property
     def xy_px(self) -> FloatArray:
         """Where the tracked points are seen: shape (n, p, 2), pixels, y down."""
+        if len(self.row_xy_px):
+            return self.row_xy_px
         return self.camera.to_px(self.xy_m) + self.offset_px[:, None]
 
     def mark_px(self, name: str, frame: int = 0) -> tuple[float, float]:
         """Return where a still mark is seen in one frame, in pixels."""
-        x, y = self.camera.to_px(np.array(self.marks_m[name])) + self.offset_px[frame]
+        if len(self.row_marks_px):
+            x, y = self.row_marks_px[frame, list(self.marks_m).index(name)]
+        else:
+            x, y = self.camera.to_px(np.array(self.marks_m[name])) + self.offset_px[frame]
         return float(x), float(y)
 
     def point_index(self, name: str) -> int:

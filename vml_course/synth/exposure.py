@@ -10,17 +10,38 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import combinations
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
 from vml_course.model.arrays import FloatArray
 from vml_course.synth.shake import shifted
-from vml_course.synth.sprite import Box, Planes, Sprite, lay_veil
+from vml_course.synth.sprite import Box, Planes, Sprite, Veil, lay_veil
 
 STEP_PX = 0.7
 FEWEST_INSTANTS, MOST_INSTANTS = 8, 400
 STILL_PX = 1e-4  # a body that moves less is at rest: one instant shows it
+
+
+class Body(Protocol):
+    """What can be exposed: a drawing and its poses at some instants of one exposure."""
+
+    @property
+    def instants(self) -> int:
+        """How many there are."""
+
+    @property
+    def is_still(self) -> bool:
+        """Whether one instant shows it."""
+
+    def box(self, shape: tuple[int, ...]) -> Box:
+        """Return the part of a picture of some shape that the body may reach."""
+
+    def lay(self, on: Planes, instant: int, corner: tuple[int, int] = (0, 0)) -> Box:
+        """Lay the body over a part of the picture that begins at `corner`; return what may have changed."""
+
+    def veil(self, box: Box) -> Veil:
+        """Return the mean over the instants of what lies over a box."""
 
 
 class Swept(NamedTuple):
@@ -28,6 +49,11 @@ class Swept(NamedTuple):
 
     sprite: Sprite
     pose_px: FloatArray
+
+    @property
+    def instants(self) -> int:
+        """How many poses there are."""
+        return len(self.pose_px)
 
     @property
     def is_still(self) -> bool:
@@ -38,8 +64,17 @@ class Swept(NamedTuple):
         """Return the part of the picture that the body may reach."""
         return hull([self.sprite.box((x, y), turn, shape) for x, y, turn in self.pose_px])
 
+    def lay(self, on: Planes, instant: int, corner: tuple[int, int] = (0, 0)) -> Box:
+        """Lay the body over a part of the picture that begins at `corner`; return what may have changed."""
+        x, y, turn = self.pose_px[instant]
+        return self.sprite.lay(on, (x - corner[0], y - corner[1]), turn)
 
-def count_instants(sprites: Sequence[Sprite], pose_px: FloatArray) -> int:
+    def veil(self, box: Box) -> Veil:
+        """Return the mean over the instants of what lies over a box."""
+        return self.sprite.smeared(self.pose_px, box)
+
+
+def count_instants(sprites: Sequence[Sprite], pose_px: FloatArray, stretch: float = 1.0) -> int:
     """Return how many instants an exposure needs.
 
     Parameters
@@ -47,19 +82,21 @@ def count_instants(sprites: Sequence[Sprite], pose_px: FloatArray) -> int:
     sprites : sequence of Sprite
     pose_px : float array, shape (k, b, 3)
         Where each body is at some times of the exposure: px, px, rad.
+    stretch : float
+        By how much the lens may lengthen a way.
     """
     steps = np.abs(np.diff(pose_px, axis=0))
     reach = np.array([sprite.reach_px for sprite in sprites])
-    longest = float((np.hypot(steps[..., 0], steps[..., 1]) + reach * steps[..., 2]).sum(axis=0).max())
+    longest = stretch * float((np.hypot(steps[..., 0], steps[..., 1]) + reach * steps[..., 2]).sum(axis=0).max())
     if longest < STILL_PX:
         return 1
     return int(np.clip(np.ceil(longest / STEP_PX), FEWEST_INSTANTS, MOST_INSTANTS))
 
 
-def expose(on: Planes, bodies: Sequence[Swept]) -> list[Box]:
+def expose(on: Planes, bodies: Sequence[Body]) -> list[Box]:
     """Draw bodies that move during an exposure over a still picture; return the boxes that may have changed."""
-    if all(len(body.pose_px) == 1 for body in bodies):
-        return [_lay(on, body, 0) for body in bodies]
+    if all(body.instants == 1 for body in bodies):
+        return [body.lay(on, 0) for body in bodies]
     boxes = [body.box(on.luma.shape) for body in bodies]
     shared = [common for pair in combinations(boxes, 2) if not_empty(common := meet(*pair))]
     behind = [on.part(box).copy() for box in shared]
@@ -70,22 +107,22 @@ def expose(on: Planes, bodies: Sequence[Swept]) -> list[Box]:
     return boxes
 
 
-def expose_shaken(still: Planes, bodies: Sequence[Swept], offset_px: FloatArray) -> Planes:
+def expose_shaken(still: Planes, bodies: Sequence[Body], offset_px: FloatArray) -> Planes:
     """Return the picture of an exposure during which the camera itself moves: whole pictures are averaged.
 
     Parameters
     ----------
     still : Planes
         What stands still, as an unmoved camera sees it.
-    bodies : sequence of Swept
-    offset_px : float array, shape (k, 2)
-        How far the picture is shifted at each instant.
+    bodies : sequence of Body
+    offset_px : float array, shape (k, 2) or (k, h, 2)
+        How far the picture, or each of its rows, is shifted at each instant.
     """
     total = Planes(np.zeros_like(still.luma), np.zeros_like(still.chroma))
     for instant, offset in enumerate(offset_px):
         sheet = shifted(still, offset)
         for body in bodies:
-            _lay(sheet, body, instant)
+            body.lay(sheet, instant)
         total.luma[...] += sheet.luma
         total.chroma[...] += sheet.chroma
     count = np.float32(len(offset_px))
@@ -112,26 +149,21 @@ def hull(boxes: Sequence[Box]) -> Box:
     return int(low[0]), int(low[1]), int(high[0]), int(high[1])
 
 
-def _expose_one(on: Planes, body: Swept, box: Box) -> None:
+def _expose_one(on: Planes, body: Body, box: Box) -> None:
     if body.is_still:
-        _lay(on, body, 0)
+        body.lay(on, 0)
     elif not_empty(box):
-        lay_veil(on, body.sprite.smeared(body.pose_px, box), box)
+        lay_veil(on, body.veil(box), box)
 
 
-def _expose_together(on: Planes, still: Planes, bodies: Sequence[Swept], box: Box) -> None:
+def _expose_together(on: Planes, still: Planes, bodies: Sequence[Body], box: Box) -> None:
     """Average whole pictures of the box, where bodies hide one another."""
     total, sheet = Planes(np.zeros_like(still.luma), np.zeros_like(still.chroma)), still.copy()
-    count = len(bodies[0].pose_px)
+    count = bodies[0].instants
     for instant in range(count):
         sheet.luma[...], sheet.chroma[...] = still.luma, still.chroma
         for body in bodies:
-            _lay(sheet, body, instant, (box[0], box[1]))
+            body.lay(sheet, instant, (box[0], box[1]))
         total.luma[...] += sheet.luma
         total.chroma[...] += sheet.chroma
     on.luma[...], on.chroma[...] = total.luma / np.float32(count), total.chroma / np.float32(count)
-
-
-def _lay(on: Planes, body: Swept, instant: int, corner: tuple[int, int] = (0, 0)) -> Box:
-    x, y, turn = body.pose_px[instant]
-    return body.sprite.lay(on, (x - corner[0], y - corner[1]), turn)

@@ -11,11 +11,14 @@ from vml_course.model.camera import Camera
 from vml_course.model.frame import Picture
 from vml_course.model.recording import Recording
 from vml_course.model.truth import Truth
+from vml_course.synth.bent import Bent
 from vml_course.synth.exposure import Swept, count_instants, expose, expose_shaken
 from vml_course.synth.path import fine_path
+from vml_course.synth.rows import row_exposures
 from vml_course.synth.scene import Scene, scene_class
 from vml_course.synth.sensor import make_sensor
 from vml_course.synth.shake import wander
+from vml_course.synth.sight import Sight
 from vml_course.synth.sprite import Planes, Sprite, make_planes
 
 
@@ -33,12 +36,12 @@ def scene_of(truth: Truth) -> Scene:
 
 def draw_frames(truth: Truth) -> Iterator[Planes]:
     """Yield the pictures without noise and rounding; each is overwritten by the next."""
-    look = scene_of(truth).look(truth.camera, truth.seed)
+    sight = Sight(truth.camera)
+    look = scene_of(truth).look(sight.board, truth.seed)
     sprites = [look.sprites[body] for body in truth.bodies]
-    still = make_planes(look.background)
+    still = sight.still(make_planes(look.background))
     planes = still.copy()
-    for pose_px, offset_px in exposures(truth, sprites):
-        bodies = [Swept(sprite, pose_px[:, k]) for k, sprite in enumerate(sprites)]
+    for bodies, offset_px in _exposed(truth, sprites, sight):
         if truth.camera.shake_px:
             yield expose_shaken(still, bodies, offset_px)
             continue
@@ -46,6 +49,18 @@ def draw_frames(truth: Truth) -> Iterator[Planes]:
         yield planes
         for box in changed:
             planes.restore(still, box)
+
+
+def _exposed(
+    truth: Truth, sprites: Sequence[Sprite], sight: Sight
+) -> Iterator[tuple[Sequence[Swept | Bent], FloatArray]]:
+    """Yield the bodies of each exposure, and how far the picture is shifted at its instants."""
+    if truth.camera.is_square and not truth.camera.rolling_shutter:
+        for pose_px, offset_px in exposures(truth, sprites):
+            yield [Swept(sprite, pose_px[:, k]) for k, sprite in enumerate(sprites)], offset_px
+    else:
+        for pose_px, offset_px in row_exposures(truth, scene_of(truth), sprites):
+            yield [Bent(sprite, pose_px[:, :, k], sight, offset_px) for k, sprite in enumerate(sprites)], offset_px
 
 
 def exposures(truth: Truth, sprites: Sequence[Sprite]) -> Iterator[tuple[FloatArray, FloatArray]]:

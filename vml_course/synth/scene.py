@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from vml_course.errors import UnknownNameError
 from vml_course.model.camera import Camera
+from vml_course.model.choice import check_choices
 from vml_course.model.quantity import check_quantities, quantity
 from vml_course.synth import scenes
 from vml_course.synth.clock import LONGEST_STEP_S, Clock, set_clock
@@ -90,6 +91,7 @@ class Scene(ABC):
     impact_phase: float = quantity(0.5, "", 0.0, 0.99, about="part of a frame interval by which the impact is late")
 
     def __post_init__(self) -> None:
+        check_choices(self)
         check_quantities(self)
 
     def clock(self, fps: float, refine: int = 1) -> Clock:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, fields, replace
 
 from vml_course.errors import InputError, NumberError, UnknownNameError
 from vml_course.model.camera import Camera
+from vml_course.model.choice import Choice, choices_of
 from vml_course.model.quantity import Quantity, quantities_of
 from vml_course.model.reading import read_number
 from vml_course.model.recording import Recording
@@ -37,6 +38,17 @@ def settable(scene: str) -> dict[str, Quantity]:
         name: replace(item, default=getattr(kind.default_camera, name)) for name, item in quantities_of(Camera).items()
     }
     return quantities_of(kind) | camera | quantities_of(Recording)
+
+
+def settable_words(scene: str) -> dict[str, Choice]:
+    """Return every word that can be set for a scene, by field name.
+
+    Raises
+    ------
+    UnknownNameError
+        When there is no such scene.
+    """
+    return choices_of(scene_class(scene)) | choices_of(Recording)
 
 
 def make_settings(scene: str, values: Mapping[str, Value]) -> Settings:
@@ -87,7 +99,7 @@ def read_settings(scene: str, texts: Sequence[str]) -> Settings:
         field = _field_name(scene, name)
         if field in values:
             raise InputError(name, "one value", "two")
-        values[field] = value if field == "format" else read_fraction(name, value)
+        values[field] = value if field in settable_words(scene) else read_fraction(name, value)
     return make_settings(scene, values)
 
 
@@ -105,10 +117,10 @@ def read_fraction(name: str, text: str) -> float:
 
 
 def _field_name(scene: str, name: str) -> str:
-    known = settable(scene)
+    known, words = settable(scene), settable_words(scene)
     by_symbol = {item.symbol: field for field, item in known.items() if item.symbol}
-    if name in known or name == "format":
+    if name in known or name in words:
         return name
     if name in by_symbol:
         return by_symbol[name]
-    raise UnknownNameError(f"--set {name}", name, sorted({*known, *by_symbol, "format"}, key=str.lower))
+    raise UnknownNameError(f"--set {name}", name, sorted({*known, *by_symbol, *words}, key=str.lower))

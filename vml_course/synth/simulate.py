@@ -24,6 +24,7 @@ from vml_course.synth.honesty import (
     place,
 )
 from vml_course.synth.law import Law
+from vml_course.synth.rows import with_rows
 from vml_course.synth.run import Contact, Run
 from vml_course.synth.scene import Scene
 from vml_course.synth.shake import wander
@@ -67,7 +68,7 @@ def simulate(scene: Scene, camera: Camera, seed: int, *, refine: int = 1) -> Tru
             *frame_checks(scene, camera, clock, run.pose),
         ],
     )
-    return _truth(scene, camera, seed, (clock, run, impact, checks))
+    return with_rows(_truth(scene, camera, seed, (clock, run, impact, checks)), scene)
 
 
 def read_impact(law: Law, run: Run, contact: Contact, clock: Clock) -> ImpactTruth:

@@ -54,7 +54,7 @@ def make_video(
     folder.mkdir(parents=True, exist_ok=True)
     video = folder / f"video.{recording.format}"
     pictures = _counted(render(truth, recording), len(truth.time_s), progress)
-    write_video(video, pictures, recording.file_fps or camera.fps, int(recording.crf))
+    write_video(video, pictures, recording.file_fps or camera.fps, int(recording.crf), recording.stored_codec)
     write_truth_json(folder / "truth.json", truth)
     write_truth_csv(folder / "truth.csv", truth)
     _remove_older(folder, recording.format)

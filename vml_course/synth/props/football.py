@@ -8,9 +8,10 @@ import numpy as np
 
 from vml_course.model.arrays import FloatArray
 from vml_course.synth.canvas import Canvas, sheet
+from vml_course.synth.props.prints import Print
 from vml_course.synth.shapes import disc
 from vml_course.synth.sprite import OVERSAMPLE, Sprite, make_sprite
-from vml_course.synth.texture import Plane, grain
+from vml_course.synth.texture import Plane
 
 WHITE = (228.0, 228.0, 222.0)
 DARK = (44.0, 46.0, 56.0)
@@ -20,9 +21,10 @@ GOLDEN = (1 + 5**0.5) / 2
 FACE_DISTANCE = {"pentagon": 2.32744, "hexagon": 2.26728}  # from the centre, in edge lengths
 SEAM_WIDTH = 0.012
 GRAIN_GREY = 15.0
+USUAL = Print()
 
 
-def draw_football(radius_m: float, px_per_m: float, seed: int) -> Sprite:
+def draw_football(radius_m: float, px_per_m: float, seed: int, printed: Print = USUAL) -> Sprite:
     """Draw a ball whose centre is its origin."""
     on = sheet((radius_m,) * 4, px_per_m, OVERSAMPLE)
     rim = disc(on, (0.0, 0.0), radius_m)
@@ -31,8 +33,7 @@ def draw_football(radius_m: float, px_per_m: float, seed: int) -> Sprite:
     on.fill(np.maximum(rim, seam), SEAM)
     on.fill(np.maximum(rim, pentagon), DARK)
     on.fill(np.maximum(rim, -(rim + 0.02 * radius_m)), RIM)
-    speckle = grain(seed, "ball", (on.opacity.shape[0], on.opacity.shape[1]), OVERSAMPLE)
-    on.lighten(GRAIN_GREY * speckle, rim)
+    on.lighten(printed.speckle(on, seed, "ball", GRAIN_GREY, OVERSAMPLE), rim)
     on.lighten(_shade(on, radius_m), rim)
     return make_sprite(on)
 

@@ -11,10 +11,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from vml_course.synth.canvas import Canvas, sheet
+from vml_course.synth.props.prints import Print, draw_logo, stripes
 from vml_course.synth.props.target import draw_target
 from vml_course.synth.shapes import both, box, tapered, union
 from vml_course.synth.sprite import OVERSAMPLE, Sprite, make_sprite
-from vml_course.synth.texture import Plane, grain
+from vml_course.synth.texture import Plane
 
 SKIN = (205.0, 156.0, 128.0)
 SLEEVE = (112.0, 108.0, 118.0)
@@ -27,6 +28,8 @@ SOLE_M = 0.014
 SLEEVE_TO = 0.17  # of the way from knee to foot
 SOCK_FROM = 0.24  # of the way from knee to foot
 GRAIN_GREY = 25.0
+LOGO_OF_SHIN = 1.25
+USUAL = Print()
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,22 +43,35 @@ class Leg:
     shin_at: float
 
 
-def draw_leg(leg: Leg, px_per_m: float, seed: int) -> Sprite:
-    """Draw a leg whose knee is its origin."""
+def draw_leg(leg: Leg, px_per_m: float, seed: int, printed: Print = USUAL, *, plain_knee: bool = False) -> Sprite:
+    """Draw a leg whose knee is its origin.
+
+    Targets sit where something else does not show the place: none on a plain knee or a plain leg, and none on a
+    shin with a logo or stripes.
+    """
     wide = max(leg.knee_m, leg.foot_m + 0.05)
     on = sheet((wide, wide, leg.length_m + TOE_M + leg.foot_m, leg.knee_m), px_per_m, OVERSAMPLE)
     limb, boot = _limb(on, leg), _boot(on, leg)
     on.fill(limb, SKIN)
     on.fill(both(limb, box(on, (-1.0, -SLEEVE_TO * leg.length_m), (1.0, 1.0))), SLEEVE)
-    _draw_sock(on, leg, limb)
+    _draw_sock(on, leg, limb, printed.kind)
     _draw_boot(on, leg, boot)
     outline = union(limb, boot)
     on.lighten(_roundness(on, leg), outline)
-    speckle = grain(seed, "leg", (on.opacity.shape[0], on.opacity.shape[1]), OVERSAMPLE)
-    on.lighten(GRAIN_GREY * speckle, outline)
-    for way in (0.0, leg.shin_at, 1.0):
-        draw_target(on, (0.0, -way * leg.length_m), OVERSAMPLE)
+    speckle = printed.speckle(on, seed, "leg", GRAIN_GREY, OVERSAMPLE)
+    below_knee = box(on, (-1.0, -10.0), (1.0, -SLEEVE_TO * leg.length_m))
+    on.lighten(speckle, both(outline, below_knee) if plain_knee else outline)
+    shin = (0.0, -leg.shin_at * leg.length_m)
+    if printed.kind == "logo":
+        draw_logo(on, shin, LOGO_OF_SHIN * leg.shin_m)
+    for place in _targets(leg, printed.kind, plain_knee=plain_knee):
+        draw_target(on, place, OVERSAMPLE)
     return make_sprite(on)
+
+
+def _targets(leg: Leg, kind: str, *, plain_knee: bool) -> list[tuple[float, float]]:
+    ways = {"speckle": (0.0, leg.shin_at, 1.0), "plain": ()}.get(kind, (0.0, 1.0))
+    return [(0.0, -way * leg.length_m) for way in ways if way or not plain_knee]
 
 
 def _limb(on: Canvas, leg: Leg) -> Plane:
@@ -95,9 +111,13 @@ def _boot_opening(on: Canvas, leg: Leg) -> Plane:
     return np.asarray(on.y_m - rim + 0.0 * on.x_m, np.float32)
 
 
-def _draw_sock(on: Canvas, leg: Leg, limb: Plane) -> None:
+def _draw_sock(on: Canvas, leg: Leg, limb: Plane, kind: str) -> None:
     top = -SOCK_FROM * leg.length_m
-    on.fill(both(limb, box(on, (-1.0, -1.0), (1.0, top))), SOCK)
+    sock = both(limb, box(on, (-1.0, -1.0), (1.0, top)))
+    on.fill(sock, SOCK)
+    if kind == "stripes":
+        on.fill(both(sock, stripes(on, top)), BAND)
+        return
     for drop in (0.012, 0.04):
         on.fill(both(limb, box(on, (-1.0, top - drop - 0.014), (1.0, top - drop))), BAND)
 

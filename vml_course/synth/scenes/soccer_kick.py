@@ -8,14 +8,17 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from vml_course.model.camera import Camera
+from vml_course.model.choice import choice
 from vml_course.model.quantity import quantity
 from vml_course.synth.laws.pinned import PinnedStrike
 from vml_course.synth.laws.soft import SoftStrike, soften
 from vml_course.synth.laws.struck import Struck
 from vml_course.synth.look import Look
+from vml_course.synth.props.backgrounds import BACKGROUNDS, draw_background, draw_scale
 from vml_course.synth.props.football import draw_football
-from vml_course.synth.props.gym import draw_gym
+from vml_course.synth.props.gym import draw_tee, draw_thigh
 from vml_course.synth.props.leg import Leg, draw_leg
+from vml_course.synth.props.prints import PRINTS, Print
 from vml_course.synth.scene import Marker, Scene
 
 KNEE_M = 0.09
@@ -23,6 +26,7 @@ SHIN_M = 0.08
 SHIN_AT = 0.5  # of the way from knee to foot
 BAR_LEFT_M = -0.25
 BAR_BELOW_FOOT_M = 0.26
+FLOOR_ABOVE_BAR_M = 0.07
 
 
 @dataclass(frozen=True)
@@ -67,6 +71,15 @@ class SoccerKick(Scene):
     drive_torque_N_m: float = quantity(0.0, "N m", -100.0, 100.0, about="constant muscle torque at the knee")  # noqa: N815
     contact_ms: float = quantity(0.0, "ms", 0.0, 12.0, about="how long foot and ball touch; 0 is an instant")
 
+    texture: str = choice(
+        "speckle", PRINTS, about="what is printed on leg and ball; along stripes nothing can be told apart"
+    )
+    speckle: float = quantity(1.0, "", 0.0, 2.5, about="contrast of the speckle, as a multiple of the usual")
+    speckle_px: float = quantity(1.0, "px", 0.5, 6.0, about="size of the speckle's smallest spots")
+    knee: str = choice("marked", ("marked", "plain"), about="a plain knee has nothing that could be tracked")
+    background: str = choice("gym", BACKGROUNDS, about="what is behind")
+    scale: str = choice("bar", ("bar", "ball"), about="what to calibrate with: a bar, or the ball's own diameter")
+
     def __post_init__(self) -> None:
         super().__post_init__()
         self.law()
@@ -98,9 +111,16 @@ class SoccerKick(Scene):
         )
 
     def marks_m(self) -> dict[str, tuple[float, float]]:
-        """Return both ends of the 1 m bar on the floor."""
-        height = -(self.leg_length_m + BAR_BELOW_FOOT_M)
-        return {"bar_left": (BAR_LEFT_M, height), "bar_right": (BAR_LEFT_M + 1.0, height)}
+        """Return both ends of the 1 m bar on the floor, or of the resting ball's level diameter."""
+        height = self._floor_m
+        if self.scale == "bar":
+            return {"bar_left": (BAR_LEFT_M, height), "bar_right": (BAR_LEFT_M + 1.0, height)}
+        (x, y), radius = self.strike().ball_m, self.ball_diameter_m / 2
+        return {"ball_left": (float(x) - radius, float(y)), "ball_right": (float(x) + radius, float(y))}
+
+    @property
+    def _floor_m(self) -> float:
+        return -(self.leg_length_m + BAR_BELOW_FOOT_M)
 
     def given(self) -> dict[str, float]:
         """Return ball mass, leg length and ball diameter."""
@@ -112,10 +132,17 @@ class SoccerKick(Scene):
 
     def look(self, camera: Camera, seed: int) -> Look:
         """Draw the gym, the leg and the ball."""
-        radius = self.ball_diameter_m / 2
+        radius, printed = self.ball_diameter_m / 2, Print(self.texture, self.speckle, self.speckle_px)
         leg = Leg(self.leg_length_m, self.foot_radius_m, KNEE_M, SHIN_M, SHIN_AT)
+        room = draw_background(camera, seed, self._floor_m + FLOOR_ABOVE_BAR_M, self.background)
         x, y = self.law().ball_m.tolist()
+        draw_tee(room, (x, y - radius), self._floor_m)
+        draw_scale(room, self.marks_m())
+        draw_thigh(room, seed)
         return Look(
-            background=draw_gym(camera, seed, self.marks_m(), (x, y - radius)),
-            sprites={"leg": draw_leg(leg, camera.px_per_m, seed), "ball": draw_football(radius, camera.px_per_m, seed)},
+            background=room,
+            sprites={
+                "leg": draw_leg(leg, camera.px_per_m, seed, printed, plain_knee=self.knee == "plain"),
+                "ball": draw_football(radius, camera.px_per_m, seed, printed),
+            },
         )
