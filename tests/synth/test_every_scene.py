@@ -17,7 +17,7 @@ from vml_course.synth.render import draw_frames, scene_of
 from vml_course.synth.scene import scene_class, scene_names
 from vml_course.synth.simulate import simulate
 
-WIDE = Camera(px_per_m=50.0, width_px=1920, height_px=1088, origin_x_px=960.0, origin_y_px=544.0)  # 38 m across
+WIDE = Camera(px_per_m=50.0, width_px=1920, height_px=1080, origin_x_px=960.0, origin_y_px=540.0)  # 38 m across
 REALISED = 1e-6  # relative: realised against nominal and closed form
 CLIP_ENERGY = 1e-5  # of all energy: leap-frog over a whole clip at the highest speeds
 FRAME_M = 1e-6

@@ -115,8 +115,8 @@ class SoccerKick(Scene):
         height = self._floor_m
         if self.scale == "bar":
             return {"bar_left": (BAR_LEFT_M, height), "bar_right": (BAR_LEFT_M + 1.0, height)}
-        (x, y), radius = self.strike().ball_m, self.ball_diameter_m / 2
-        return {"ball_left": (float(x) - radius, float(y)), "ball_right": (float(x) + radius, float(y))}
+        (x, y), radius = self.law().ball_m.tolist(), self.ball_diameter_m / 2
+        return {"ball_left": (x - radius, y), "ball_right": (x + radius, y)}
 
     @property
     def _floor_m(self) -> float:
