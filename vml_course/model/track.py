@@ -25,11 +25,12 @@ class Status(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class Seed:
-    """A point to track: its name and where it is in the first frame (sub-pixel, y down)."""
+    """Where a point was placed: its name, its place (sub-pixel, y down), and in which frame; None: in the first."""
 
     name: str
     x_px: float
     y_px: float
+    frame: int | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,6 +87,9 @@ class Track:
         As in `Sighting`, with a leading axis n.
     settings : mapping of str to (str, int or float)
         How it was tracked: method, block, ...
+    reference : int array, shape (n, p)
+        Number of the frame whose block the point was compared with; where it changes, the point was referenced
+        anew. The first frame everywhere when left out.
     """
 
     points: tuple[str, ...]
@@ -98,6 +102,7 @@ class Track:
     status: NDArray[np.int8]
     gradient: FloatArray
     settings: Mapping[str, str | int | float] = field(default_factory=dict)
+    reference: IntArray = field(default=None)  # type: ignore[arg-type] # filled in below
 
     def __post_init__(self) -> None:
         axes, p = Axes(), len(self.points)
@@ -111,7 +116,13 @@ class Track:
             iterations=axes.freeze("iterations", self.iterations, "n", p, dtype=np.int64),
             status=axes.freeze("status", self.status, "n", p, dtype=np.int8),
             gradient=axes.freeze("gradient", self.gradient, "n", p, 4),
+            reference=axes.freeze("reference", self._reference(p), "n", p, dtype=np.int64),
         )
+
+    def _reference(self, p: int) -> IntArray:
+        if self.reference is not None:
+            return self.reference
+        return np.full((len(self.frame), p), self.frame[0] if len(self.frame) else 0)
 
     @property
     def is_lost(self) -> NDArray[np.bool_]:

@@ -27,6 +27,7 @@ from vml_course.track.blocks import check_block_fits, check_texture, first_sight
 from vml_course.track.blur import Sharp
 from vml_course.track.ladder import follow
 from vml_course.track.learning import learn
+from vml_course.track.placing import manual_sighting, place
 from vml_course.track.records import Past, Reference, Rules
 
 LARGEST_CORNER_SIGMA_PX = 0.25  # beyond this a freedom of the warp is noise: take the next smaller warp
@@ -94,15 +95,7 @@ class Dic:
 
     def step(self, state: DicState, luma: Luma) -> tuple[DicState, Sighting]:
         """Find the points in the next picture."""
-        picture = read_only(luma)
-        rules = Rules(
-            self.search_radius,
-            self.zncc_lost,
-            self.zncc_far,
-            int(self.max_iterations),
-            int(self.give_up_frames),
-            self.shutter,
-        )
+        picture, rules = read_only(luma), self._rules()
         followed = [
             follow(reference, past, picture, rules)
             for reference, past in zip(state.references, state.pasts, strict=True)
@@ -112,6 +105,26 @@ class Dic:
         ]
         references, pasts = zip(*learned, strict=True) if learned else ((), ())
         return DicState(tuple(references), tuple(pasts)), _sighting(tuple(found for _, found in followed))
+
+    def place(self, state: DicState, luma: Luma, points_px: FloatArray) -> tuple[DicState, Sighting]:
+        """Go on from where the points, shape (p, 2), px, are said to be in this picture; see `placing`."""
+        picture, rules = read_only(luma), self._rules()
+        placed = [
+            place(reference, past, picture, rules, point)
+            for reference, past, point in zip(state.references, state.pasts, points_px, strict=True)
+        ]
+        sighting = manual_sighting(points_px, tuple(found for _, found in placed))
+        return DicState(state.references, tuple(past for past, _ in placed)), sighting
+
+    def _rules(self) -> Rules:
+        return Rules(
+            self.search_radius,
+            self.zncc_lost,
+            self.zncc_far,
+            int(self.max_iterations),
+            int(self.give_up_frames),
+            self.shutter,
+        )
 
     def _learn(self, luma: Luma, name: str, x: float, y: float) -> Reference:
         size = int(self.block)
