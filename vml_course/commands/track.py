@@ -31,7 +31,20 @@ def track(
     video: Annotated[Path, typer.Argument(help="Video, or a clip of `vml clip` (frames keep the video's numbers).")],
     points: Annotated[
         list[str] | None,
-        typer.Option("-p", "--point", metavar="NAME=X,Y", help="A point in the first frame, px, y down. Repeatable."),
+        typer.Option(
+            "-p",
+            "--point",
+            metavar="NAME=X,Y[@FRAME]",
+            help="A point, px, y down, in the first frame or in FRAME: it is tracked both ways. Repeatable.",
+        ),
+    ] = None,
+    marks: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--mark",
+            metavar="NAME=X,Y@FRAME",
+            help="Where a point is in a further frame, by hand: tracking goes on from there. Repeatable.",
+        ),
     ] = None,
     start: Annotated[int, typer.Option(help="First frame of the file, counted from 0.")] = 0,
     end: Annotated[int | None, typer.Option(help="Last frame of the file; the last one when not given.")] = None,
@@ -85,6 +98,7 @@ def track(
         points or [],
         vectors or [],
         words,
+        marks=marks or [],
         start=start,
         end=end,
         step=step,
@@ -137,6 +151,7 @@ def _check_facts(one: PointCheck) -> dict[str, Any]:
         "verdict": found.verdict.value,
         "sigma_px": found.sigma_px if math.isfinite(found.sigma_px) else None,
         "noise_grey": found.noise_grey,
+        "returns_px": one.returns_px if math.isfinite(one.returns_px) else None,
         "rival_zncc": found.rival.zncc,
         "rival_offset_px": found.rival.offset_px,
         "text": one.text,
@@ -171,12 +186,18 @@ def _print(tracked: Tracked, points: list[PointSummary], written: tuple[Path, ..
     for name in ("point", "found", "worst ZNCC", "sigma px (median)"):
         table.add_column(name, no_wrap=True, justify="left" if name == "point" else "right")
     for one in points:
-        table.add_row(one.name, f"{one.found} of {one.frames}", f"{one.worst_zncc:.3f}", f"{one.median_sigma_px:.4f}")
+        table.add_row(one.name, _found(one), f"{one.worst_zncc:.3f}", f"{one.median_sigma_px:.4f}")
     Console(highlight=False).print(table)
     unit = f"{tracked.calibration.px_per_m:.6g} px/m" if tracked.calibration else "pixels only: no --scale"
     typer.echo(f"{len(tracked.track.frame)} frames at {tracked.fps:.6g} 1/s, {unit}")
     for path in written:
         typer.echo(str(path))
+
+
+def _found(one: PointSummary) -> str:
+    """Say in how many frames a point has a place, and in how many of them it was not tracked."""
+    others = [f"{count} {status}" for status, count in one.statuses.items() if status not in {"auto", "lost"}]
+    return f"{one.found} of {one.frames}" + (f" ({', '.join(others)})" if others else "")
 
 
 def _facts(tracked: Tracked, points: list[PointSummary], written: tuple[Path, ...]) -> dict[str, Any]:
@@ -193,8 +214,9 @@ def _facts(tracked: Tracked, points: list[PointSummary], written: tuple[Path, ..
             one.name: {
                 "found": one.found,
                 "lost": one.frames - one.found,
-                "worst_zncc": one.worst_zncc,
-                "median_sigma_px": one.median_sigma_px,
+                "statuses": dict(one.statuses),
+                "worst_zncc": one.worst_zncc if math.isfinite(one.worst_zncc) else None,
+                "median_sigma_px": one.median_sigma_px if math.isfinite(one.median_sigma_px) else None,
             }
             for one in points
         },

@@ -1,24 +1,38 @@
-"""How well each point was tracked, in four numbers."""
+"""How well each point was tracked, in a few numbers."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
 from vml_course.model.arrays import FloatArray
+from vml_course.model.track import Status
 from vml_course.model.tracked import Tracked
 
 
 @dataclass(frozen=True, slots=True)
 class PointSummary:
-    """One point: found in how many of the frames, its worst correlation, its median sigma (NaN: never found)."""
+    """One point.
+
+    Attributes
+    ----------
+    name : str
+    found, frames : int
+        In how many of the frames it has a place.
+    worst_zncc, median_sigma_px : float
+        NaN: never found.
+    statuses : mapping of str to int
+        In how many frames it is `auto`, `manual`, `interp`, `virtual`, `lost`; those that occur.
+    """
 
     name: str
     found: int
     frames: int
     worst_zncc: float
     median_sigma_px: float
+    statuses: Mapping[str, int]
 
 
 def summarise(tracked: Tracked) -> list[PointSummary]:
@@ -31,6 +45,7 @@ def summarise(tracked: Tracked) -> list[PointSummary]:
             len(track.frame),
             float(np.min(seen, initial=np.inf)) if len(seen := _known(track.zncc[:, number])) else float("nan"),
             float(np.median(spread)) if len(spread := _known(track.sigma_px[:, number])) else float("nan"),
+            {one.name.lower(): count for one in Status if (count := int(np.sum(track.status[:, number] == one)))},
         )
         for number, name in enumerate(track.points)
     ]

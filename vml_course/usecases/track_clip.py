@@ -4,23 +4,26 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from itertools import combinations
 from pathlib import Path
 
 import numpy as np
 
 from vml_course.errors import InputError, UnknownNameError
-from vml_course.io.source import Source, open_source
+from vml_course.io.source import Source
 from vml_course.kinetics.calibrate import calibrate, relative_scale_sd
 from vml_course.kinetics.vectors import vector_series
 from vml_course.model.frame import Frame
 from vml_course.model.motion import Calibration, VectorSeries
 from vml_course.model.track import Seed, Sighting, Track
 from vml_course.model.tracked import Tracked
-from vml_course.track.run import run
+from vml_course.track.places import Places
+from vml_course.track.run import run_both_ways
 from vml_course.track.tracker import make_tracker
 from vml_course.usecases.cut_clip import warnings_of
+from vml_course.usecases.reel import Reel, Way, open_reel
+from vml_course.usecases.retrack import fill_before_marks
 
 __all__ = ["TrackRequest", "Tracked", "VectorRequest", "track_clip"]
 
@@ -46,7 +49,9 @@ class TrackRequest:
     video : Path
         A video, or a clip with its note: then frames and times are those of the source.
     seeds : tuple of Seed
-        Where the points are in the first picture.
+        Where the points are: in the first picture, or in the frame that a seed names (numbered as in the track).
+    marks : tuple of Seed
+        Places given by hand in further frames: the track goes through them.
     start, end, step : int
         Pictures of the file, `end` inclusive (None: the last).
     fps : float or None
@@ -78,6 +83,7 @@ class TrackRequest:
     vectors: tuple[VectorRequest, ...] = ()
     method: str = "dic"
     settings: Mapping[str, float] = field(default_factory=dict)
+    marks: tuple[Seed, ...] = ()
 
 
 def track_clip(request: TrackRequest, progress: Progress | None = None) -> Tracked:
@@ -91,18 +97,14 @@ def track_clip(request: TrackRequest, progress: Progress | None = None) -> Track
         When the request does not fit together, or a point cannot be followed from where it was placed.
     """
     check_request(request)
-    source = open_source(request.video)
-    fps, frames = clock(request, source)
-    calibration = _calibration(request, source)
-    total = picture_count(request, source)
-    track = run(
-        make_tracker(request.method, **request.settings),
-        frames,
-        request.seeds,
-        fps=None if source.is_variable_rate else fps,
-        on_frame=_counter(total, progress),
-    )
-    return _tracked(request, source, track, calibration, fps)
+    reel = open_reel(request)
+    calibration = _calibration(request, reel.source)
+    way = _way(request, reel)
+    tracker = make_tracker(request.method, **request.settings)
+    places, on_frame = Places(request.seeds, request.marks), _counter(way.total, progress)
+    track = run_both_ways(tracker, way.onwards, way.back, places, fps=reel.steady_fps, on_frame=on_frame)
+    track = fill_before_marks(reel, tracker, places, track)
+    return _tracked(request, reel.source, track, calibration, reel.fps)
 
 
 def check_request(request: TrackRequest) -> None:
@@ -114,6 +116,7 @@ def check_request(request: TrackRequest) -> None:
     """
     points = [seed.name for seed in request.seeds]
     _check_names("point", points)
+    Places(request.seeds, request.marks)
     _check_names("vector", [vector.name for vector in request.vectors])
     for vector in request.vectors:
         for end in (vector.tail, vector.head):
@@ -134,9 +137,17 @@ def check_video(request: TrackRequest) -> None:
     FileMissingError, VideoError, FrameRangeError, InputError
     """
     check_request(request)
-    source = open_source(request.video)
-    clock(request, source)
-    _calibration(request, source)
+    reel = open_reel(request)
+    _way(request, reel)
+    _calibration(request, reel.source)
+
+
+def _way(request: TrackRequest, reel: Reel) -> Way:
+    Places(request.seeds, request.marks).from_frame(reel.first_frame)  # refuses a mark on a seed
+    for mark in request.marks:
+        if mark.frame is not None:
+            reel.row(f"mark {mark.name}", mark.frame)
+    return reel.way(request.seeds)
 
 
 def _check_names(kind: str, names: Sequence[str]) -> None:
@@ -145,30 +156,6 @@ def _check_names(kind: str, names: Sequence[str]) -> None:
         raise InputError(kind, "each name once", f"{doubled[0]} twice")
     if not all(name.strip() for name in names):
         raise InputError(kind, "a name", "none")
-
-
-def clock(request: TrackRequest, source: Source) -> tuple[float, Iterator[Frame]]:
-    """Return frames per second when recorded, and the pictures with times on that clock.
-
-    A given rate stretches the time stamps: slow-motion clips are stored to play at 30 1/s.
-
-    Raises
-    ------
-    InputError
-        When neither the request nor the file says a rate.
-    """
-    fps = request.fps if request.fps is not None else float(source.rate)
-    if not (np.isfinite(fps) and fps > 0):
-        raise InputError("fps", "the frames per second when recorded, above 0", f"{fps:g}")
-    stretch = float(source.rate) / fps
-    frames = source.frames(request.start, request.end, request.step)
-    return fps, (replace(frame, time_s=frame.time_s * stretch) for frame in frames)
-
-
-def picture_count(request: TrackRequest, source: Source) -> int:
-    """Return how many pictures the request asks for."""
-    end = source.info.frame_count - 1 if request.end is None else request.end
-    return len(range(request.start, end + 1, request.step))
 
 
 def _calibration(request: TrackRequest, source: Source) -> Calibration | None:
@@ -219,7 +206,7 @@ def _tracked(
         sha256=source.sha256,
         time_base=f"{stamps}, 0 at the first frame",
         scale_relative_sd=relative_scale_sd(calibration.stick_px) if calibration and calibration.stick_px else None,
-        warnings=(*warnings_of(source), *_lost_points(track), *_merged_points(track)),
+        warnings=(*warnings_of(source), *_lost_points(track), *_new_references(request, track), *_merged_points(track)),
         path=source.path,
         first_picture=request.start,
         picture_step=request.step,
@@ -237,6 +224,17 @@ def _lost_points(track: Track) -> Iterator[str]:
         if len(lost):
             first = int(track.frame[lost[0]])
             yield f"{point}: lost in {len(lost)} of {len(track.frame)} frames, first in frame {first}."
+
+
+def _new_references(request: TrackRequest, track: Track) -> Iterator[str]:
+    for number, point in enumerate(track.points):
+        home = {seed.name: seed.frame for seed in request.seeds}.get(point)
+        first = int(track.frame[0]) if home is None else home
+        for frame in np.unique(track.reference[:, number]).tolist():
+            rows = np.flatnonzero(track.reference[:, number] == frame)
+            if frame not in {first, -1}:
+                span = f"{track.frame[rows[0]]} to {track.frame[rows[-1]]}"
+                yield f"{point}: frames {span} were compared with its block in frame {frame}, not in frame {first}."
 
 
 def _merged_points(track: Track) -> Iterator[str]:

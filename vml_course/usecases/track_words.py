@@ -13,18 +13,27 @@ from vml_course.model.reading import read_quantity
 from vml_course.model.track import Seed
 from vml_course.usecases.track_clip import TrackRequest, VectorRequest
 
+_WHOLE = re.compile(r"[0-9]{1,9}")
 _NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)")
 
 
 def read_request(
-    video: Path, points: Sequence[str], vectors: Sequence[str], words: Mapping[str, str | None], **settled: Any
+    video: Path,
+    points: Sequence[str],
+    vectors: Sequence[str],
+    words: Mapping[str, str | None],
+    *,
+    marks: Sequence[str] = (),
+    **settled: Any,
 ) -> TrackRequest:
     """Return the request that the words say.
 
     Parameters
     ----------
     points : sequence of str
-        `NAME=X,Y` each.
+        `NAME=X,Y` or `NAME=X,Y@FRAME` each.
+    marks : sequence of str
+        `NAME=X,Y@FRAME` each.
     vectors : sequence of str
         `NAME=TAIL:HEAD` each.
     words : mapping
@@ -45,6 +54,7 @@ def read_request(
     return TrackRequest(
         video=video,
         seeds=tuple(map(read_point, points)),
+        marks=tuple(map(read_mark, marks)),
         vectors=tuple(map(read_vector, vectors)),
         stick_px=stick,
         length_m=length_m,
@@ -56,16 +66,36 @@ def read_request(
 
 
 def read_point(text: str) -> Seed:
-    """Read `NAME=X,Y`.
+    """Read `NAME=X,Y`, with `@FRAME` when it is not the first one.
 
     >>> read_point("ball=640.5,361")
-    Seed(name='ball', x_px=640.5, y_px=361.0)
+    Seed(name='ball', x_px=640.5, y_px=361.0, frame=None)
+    >>> read_point("ball=640.5,361@40")
+    Seed(name='ball', x_px=640.5, y_px=361.0, frame=40)
     """
+    return _read_seed("-p", "a point as NAME=X,Y or NAME=X,Y@FRAME, such as ball=640.5,361", text)
+
+
+def read_mark(text: str) -> Seed:
+    """Read `NAME=X,Y@FRAME`: a place given by hand.
+
+    >>> read_mark("ball=640.5,361@57")
+    Seed(name='ball', x_px=640.5, y_px=361.0, frame=57)
+    """
+    expected = "a place by hand as NAME=X,Y@FRAME, such as ball=640.5,361@57"
+    mark = _read_seed("--mark", expected, text)
+    if mark.frame is None:
+        raise InputError("--mark", expected, repr(text))
+    return mark
+
+
+def _read_seed(option: str, expected: str, text: str) -> Seed:
     name, equals, place = text.rpartition("=")
-    if not equals or not name.strip():
-        raise InputError("-p", "a point as NAME=X,Y, such as ball=640.5,361", repr(text))
-    x, y = _pair(f"-p {name.strip()}", place)
-    return Seed(name.strip(), x, y)
+    place, at, frame = place.partition("@")
+    if not equals or not name.strip() or (at and not _WHOLE.fullmatch(frame.strip())):
+        raise InputError(option, expected, repr(text))
+    x, y = _pair(f"{option} {name.strip()}", place)
+    return Seed(name.strip(), x, y, int(frame) if at else None)
 
 
 def read_vector(text: str) -> VectorRequest:
