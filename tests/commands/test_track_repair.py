@@ -51,6 +51,31 @@ def test_a_point_in_a_later_frame_and_a_mark_reach_the_table(vml, video, tmp_pat
     assert (ball["found"], ball["lost"]) == (10, 0)
 
 
+def test_a_virtual_point_is_written_and_can_end_a_vector(vml, video, tmp_path):
+    out = tmp_path / "track.csv"
+    code, said, _ = vml(
+        "track", video, "-p", "toe=90,100", "-p", "heel=140,125", "--virtual", "knee=toe+heel@120,60", "--block", 31,
+        "--vector", "shin=knee:toe", "-o", out, "--overlay", tmp_path / "overlay.mp4",
+    )  # fmt: skip
+    assert code == 0
+    rows = rows_of(out)
+    assert {row["knee_status"] for row in rows} == {"virtual"}
+    for k in (0, 5, 9):
+        assert float(rows[k]["knee_x_px"]) == pytest.approx(120 + k * SHIFT_PX[0], abs=FOUND_PX)
+        assert float(rows[k]["knee_y_px"]) == pytest.approx(60 + k * SHIFT_PX[1], abs=FOUND_PX)
+    assert float(rows[9]["shin_dlength_pct"]) == pytest.approx(0.0, abs=0.3)
+    assert "10 of 10 (10 virtual)" in said
+
+
+def test_carriers_that_part_are_warned_of(vml, video, tmp_path):
+    code, _, said = vml(
+        "track", video, "-p", "toe=90,100", "-p", "heel=140,125", "--mark", "heel=165,140@5", "--block", 31,
+        "--virtual", "knee=toe+heel@120,60", "-o", tmp_path / "track.csv",
+    )  # fmt: skip
+    assert code == 0
+    assert "warning: knee: toe, heel do not stay the same distance apart" in said
+
+
 @pytest.mark.parametrize(
     ("words", "line"),
     [
@@ -60,6 +85,11 @@ def test_a_point_in_a_later_frame_and_a_mark_reach_the_table(vml, video, tmp_pat
         (("-p", "ball=110,115", "--mark", "ball=3,4"), "--mark: expected a place by hand as NAME=X,Y@FRAME, such as"),
         (("-p", "ball=110,115", "--mark", "ball=3,4@44"), "mark ball: expected a frame of the clip, 0 to 9, got 44."),
         (("-p", "ball=110,115", "--mark", "foot=3,4@4"), "mark foot: expected one of the points ball, got 'foot'."),
+        (("-p", "ball=110,115", "--virtual", "knee=ball"), "--virtual: expected a point as NAME=POINT+POINT@X,Y"),
+        (("-p", "ball=110,115", "--virtual", "knee=ball@3"), "--virtual knee: expected two numbers X,Y in px, such"),
+        (("-p", "ball=110,115", "--virtual", "ball=ball@3,4"), "point: expected each name once, got ball twice."),
+        (("-p", "ball=110,115", "--virtual", "knee=ball+x@3,4"), "virtual knee: expected one of ball, got 'x'."),
+        (("-p", "ball=110,115", "--virtual", "knee=ball@3,4@12"), "virtual knee: expected a frame of the clip, 0 to 9"),
         (("-p", "ball=110,115", "--mark", "ball=3,4@0"), "ball: expected one place in a frame, got 2 in frame 0."),
     ],
 )

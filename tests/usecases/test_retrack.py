@@ -13,6 +13,7 @@ from vml_course.model.frame import Picture
 from vml_course.model.track import Seed, Status
 from vml_course.track.places import seed_at
 from vml_course.track.repair import Until, with_mark
+from vml_course.track.virtual import VirtualPoint
 from vml_course.usecases.check_points import check_points
 from vml_course.usecases.cut_clip import cut_clip
 from vml_course.usecases.estimate_track import estimate_track
@@ -136,6 +137,20 @@ def test_places_by_hand_are_never_overwritten(video, seeds, place, lost):
     assert np.array_equal(again.xy_px[[12, 17, 25], 0], track.xy_px[[12, 17, 25], 0])
     stopped = retrack(request(video, seeds), track, "left", 17, until=Until.GOOD)
     assert np.flatnonzero(stopped.status[:, 0] == Status.AUTO).tolist() == [*range(10), *range(18, 25)]
+
+
+def test_virtual_points_follow_what_was_tracked_again(video, seeds, place, lost):
+    knee = VirtualPoint("knee", ("left", "right"), 120.0, 60.0)
+    asked = request(video, seeds, virtuals=(knee,))
+    track = lost
+    for number, name in enumerate(("left", "right")):
+        track = with_mark(track, seed_at(name, place(20)[number], 20))
+        track = retrack(request(video, seeds) if name == "left" else asked, track, name, 20)
+    assert track.points == ("left", "right", "knee")
+    assert (track.status[20:, 2] == Status.VIRTUAL).all()
+    assert (track.status[10:20, 2] == Status.LOST).all()
+    apart = np.hypot(*(track.xy_px[20:, 2] - track.xy_px[20:, 0]).T)
+    assert np.ptp(apart[1:]) < 2 * TRACKING_PX
 
 
 def test_the_seed_stays_when_one_tracks_back_over_it(video, place):

@@ -46,6 +46,14 @@ def track(
             help="Where a point is in a further frame, by hand: tracking goes on from there. Repeatable.",
         ),
     ] = None,
+    virtuals: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--virtual",
+            metavar="NAME=A+B@X,Y",
+            help="A point carried by tracked ones of the same body, and where it is seen. Repeatable.",
+        ),
+    ] = None,
     start: Annotated[int, typer.Option(help="First frame of the file, counted from 0.")] = 0,
     end: Annotated[int | None, typer.Option(help="Last frame of the file; the last one when not given.")] = None,
     step: Annotated[int, typer.Option(help="Take every STEP-th frame.")] = 1,
@@ -99,6 +107,7 @@ def track(
         vectors or [],
         words,
         marks=marks or [],
+        virtuals=virtuals or [],
         start=start,
         end=end,
         step=step,
@@ -186,7 +195,7 @@ def _print(tracked: Tracked, points: list[PointSummary], written: tuple[Path, ..
     for name in ("point", "found", "worst ZNCC", "sigma px (median)"):
         table.add_column(name, no_wrap=True, justify="left" if name == "point" else "right")
     for one in points:
-        table.add_row(one.name, _found(one), f"{one.worst_zncc:.3f}", f"{one.median_sigma_px:.4f}")
+        table.add_row(one.name, _found(one), *map(_number, (one.worst_zncc, one.median_sigma_px), (3, 4)))
     Console(highlight=False).print(table)
     unit = f"{tracked.calibration.px_per_m:.6g} px/m" if tracked.calibration else "pixels only: no --scale"
     typer.echo(f"{len(tracked.track.frame)} frames at {tracked.fps:.6g} 1/s, {unit}")
@@ -198,6 +207,10 @@ def _found(one: PointSummary) -> str:
     """Say in how many frames a point has a place, and in how many of them it was not tracked."""
     others = [f"{count} {status}" for status, count in one.statuses.items() if status not in {"auto", "lost"}]
     return f"{one.found} of {one.frames}" + (f" ({', '.join(others)})" if others else "")
+
+
+def _number(value: float, digits: int) -> str:
+    return f"{value:.{digits}f}" if math.isfinite(value) else "-"
 
 
 def _facts(tracked: Tracked, points: list[PointSummary], written: tuple[Path, ...]) -> dict[str, Any]:

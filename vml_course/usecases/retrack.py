@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from itertools import chain, islice, takewhile
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
@@ -14,6 +15,7 @@ from vml_course.track.prefetch import prefetched
 from vml_course.track.repair import Until, is_settled, marks_of, row_of, with_glimpses
 from vml_course.track.sweep import Glimpse, sweep
 from vml_course.track.tracker import Tracker, make_tracker
+from vml_course.track.virtual import VirtualPoint, with_virtual
 from vml_course.usecases.reel import Reel, open_reel
 
 if TYPE_CHECKING:
@@ -47,6 +49,7 @@ def retrack(
 
     Places given by hand on the way are anchors, too, and are never overwritten. The reference is the block of the
     point's seed; where that is not seen at an anchor, the block at the anchor takes its place (see `Track.reference`).
+    Virtual points are reckoned anew.
 
     Parameters
     ----------
@@ -74,7 +77,8 @@ def retrack(
     if point not in seeds:
         raise UnknownNameError("point", point, seeds)
     tracker = make_tracker(request.method, **request.settings)
-    return retrack_in(open_reel(request), tracker, seeds[point], track, Stretch(frame, direction, until))
+    again = retrack_in(open_reel(request), tracker, seeds[point], track, Stretch(frame, direction, until))
+    return with_virtuals(request, again)
 
 
 def retrack_in(reel: Reel, tracker: Tracker[Any], seed: Seed, track: Track, stretch: Stretch) -> Track:
@@ -109,6 +113,26 @@ def fill_before_marks(reel: Reel, tracker: Tracker[Any], places: Places, track: 
             direction: Direction = "backward" if is_later else "forward"
             track = retrack_in(reel, tracker, seed, track, Stretch(mark.frame, direction, Until.FOUND))
     return track
+
+
+def with_virtuals(request: TrackRequest, track: Track) -> Track:
+    """Return the track with all virtual points of a request, reckoned from what it holds now.
+
+    Raises
+    ------
+    InputError
+        When a virtual point's carriers are not seen in the frame in which it was placed.
+    """
+    for virtual in request.virtuals:
+        track = with_virtual(track, seen_at(request, virtual))
+    return track
+
+
+def seen_at(request: TrackRequest, virtual: VirtualPoint) -> VirtualPoint:
+    """Return a virtual point with its frame: where its first carrier was placed, when none was given."""
+    if virtual.frame is not None or not virtual.of:
+        return virtual
+    return replace(virtual, frame={seed.name: seed.frame for seed in request.seeds}.get(virtual.of[0]))
 
 
 def _pictures(reel: Reel, home: int, stretch: Stretch) -> Iterator[Frame]:

@@ -21,13 +21,15 @@ from vml_course.model.tracked import Tracked
 from vml_course.track.places import Places
 from vml_course.track.run import run_both_ways
 from vml_course.track.tracker import make_tracker
+from vml_course.track.virtual import VirtualPoint, check_virtual, stretch
 from vml_course.usecases.cut_clip import warnings_of
 from vml_course.usecases.reel import Reel, Way, open_reel
-from vml_course.usecases.retrack import fill_before_marks
+from vml_course.usecases.retrack import fill_before_marks, seen_at, with_virtuals
 
 __all__ = ["TrackRequest", "Tracked", "VectorRequest", "track_clip"]
 
 MERGED_PX = 1.5
+UNSTEADY = 0.02  # change of a distance on what should be a rigid body
 Progress = Callable[[int, int], None]
 
 
@@ -64,7 +66,10 @@ class TrackRequest:
         Where the world's origin is seen; None: the centre of the bottom-left pixel.
     axis_angle_rad : float
         Angle of the x axis from the picture's horizontal, counter-clockwise.
+    virtuals : tuple of VirtualPoint
+        Points carried by tracked ones; without a frame they are seen where their first carrier is placed.
     vectors : tuple of VectorRequest
+        Between tracked and virtual points.
     method : str
         Name of a tracker; `settings` are its own, such as `block`.
     """
@@ -84,6 +89,7 @@ class TrackRequest:
     method: str = "dic"
     settings: Mapping[str, float] = field(default_factory=dict)
     marks: tuple[Seed, ...] = ()
+    virtuals: tuple[VirtualPoint, ...] = ()
 
 
 def track_clip(request: TrackRequest, progress: Progress | None = None) -> Tracked:
@@ -103,7 +109,7 @@ def track_clip(request: TrackRequest, progress: Progress | None = None) -> Track
     tracker = make_tracker(request.method, **request.settings)
     places, on_frame = Places(request.seeds, request.marks), _counter(way.total, progress)
     track = run_both_ways(tracker, way.onwards, way.back, places, fps=reel.steady_fps, on_frame=on_frame)
-    track = fill_before_marks(reel, tracker, places, track)
+    track = with_virtuals(request, fill_before_marks(reel, tracker, places, track))
     return _tracked(request, reel.source, track, calibration, reel.fps)
 
 
@@ -114,9 +120,12 @@ def check_request(request: TrackRequest) -> None:
     ------
     UnknownNameError, InputError
     """
-    points = [seed.name for seed in request.seeds]
+    tracked = [seed.name for seed in request.seeds]
+    points = tracked + [virtual.name for virtual in request.virtuals]
     _check_names("point", points)
     Places(request.seeds, request.marks)
+    for virtual in request.virtuals:
+        check_virtual(virtual, tracked)
     _check_names("vector", [vector.name for vector in request.vectors])
     for vector in request.vectors:
         for end in (vector.tail, vector.head):
@@ -144,9 +153,10 @@ def check_video(request: TrackRequest) -> None:
 
 def _way(request: TrackRequest, reel: Reel) -> Way:
     Places(request.seeds, request.marks).from_frame(reel.first_frame)  # refuses a mark on a seed
-    for mark in request.marks:
-        if mark.frame is not None:
-            reel.row(f"mark {mark.name}", mark.frame)
+    for kind, places in (("mark", request.marks), ("virtual", request.virtuals)):
+        for place in places:
+            if place.frame is not None:
+                reel.row(f"{kind} {place.name}", place.frame)
     return reel.way(request.seeds)
 
 
@@ -206,7 +216,13 @@ def _tracked(
         sha256=source.sha256,
         time_base=f"{stamps}, 0 at the first frame",
         scale_relative_sd=relative_scale_sd(calibration.stick_px) if calibration and calibration.stick_px else None,
-        warnings=(*warnings_of(source), *_lost_points(track), *_new_references(request, track), *_merged_points(track)),
+        warnings=(
+            *warnings_of(source),
+            *_lost_points(track),
+            *_new_references(request, track),
+            *_unsteady_carriers(request, track),
+            *_merged_points(track),
+        ),
         path=source.path,
         first_picture=request.start,
         picture_step=request.step,
@@ -228,13 +244,23 @@ def _lost_points(track: Track) -> Iterator[str]:
 
 def _new_references(request: TrackRequest, track: Track) -> Iterator[str]:
     for number, point in enumerate(track.points):
-        home = {seed.name: seed.frame for seed in request.seeds}.get(point)
+        if point not in {seed.name for seed in request.seeds}:
+            continue
+        home = {seed.name: seed.frame for seed in request.seeds}[point]
         first = int(track.frame[0]) if home is None else home
         for frame in np.unique(track.reference[:, number]).tolist():
             rows = np.flatnonzero(track.reference[:, number] == frame)
             if frame not in {first, -1}:
                 span = f"{track.frame[rows[0]]} to {track.frame[rows[-1]]}"
                 yield f"{point}: frames {span} were compared with its block in frame {frame}, not in frame {first}."
+
+
+def _unsteady_carriers(request: TrackRequest, track: Track) -> Iterator[str]:
+    for virtual in request.virtuals:
+        change = stretch(track, seen_at(request, virtual))
+        if change > UNSTEADY:
+            names = ", ".join(virtual.of)
+            yield f"{virtual.name}: {names} do not stay the same distance apart ({100 * change:.1f} %): not one body?"
 
 
 def _merged_points(track: Track) -> Iterator[str]:

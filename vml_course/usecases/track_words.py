@@ -11,6 +11,7 @@ from typing import Any
 from vml_course.errors import InputError
 from vml_course.model.reading import read_quantity
 from vml_course.model.track import Seed
+from vml_course.track.virtual import VirtualPoint
 from vml_course.usecases.track_clip import TrackRequest, VectorRequest
 
 _WHOLE = re.compile(r"[0-9]{1,9}")
@@ -24,6 +25,7 @@ def read_request(
     words: Mapping[str, str | None],
     *,
     marks: Sequence[str] = (),
+    virtuals: Sequence[str] = (),
     **settled: Any,
 ) -> TrackRequest:
     """Return the request that the words say.
@@ -34,6 +36,8 @@ def read_request(
         `NAME=X,Y` or `NAME=X,Y@FRAME` each.
     marks : sequence of str
         `NAME=X,Y@FRAME` each.
+    virtuals : sequence of str
+        `NAME=POINT+POINT@X,Y` each.
     vectors : sequence of str
         `NAME=TAIL:HEAD` each.
     words : mapping
@@ -55,6 +59,7 @@ def read_request(
         video=video,
         seeds=tuple(map(read_point, points)),
         marks=tuple(map(read_mark, marks)),
+        virtuals=tuple(map(read_virtual, virtuals)),
         vectors=tuple(map(read_vector, vectors)),
         stick_px=stick,
         length_m=length_m,
@@ -96,6 +101,21 @@ def _read_seed(option: str, expected: str, text: str) -> Seed:
         raise InputError(option, expected, repr(text))
     x, y = _pair(f"{option} {name.strip()}", place)
     return Seed(name.strip(), x, y, int(frame) if at else None)
+
+
+def read_virtual(text: str) -> VirtualPoint:
+    """Read `NAME=POINT+POINT@X,Y`, with another `@FRAME` when it is not where the first of these points is placed.
+
+    >>> read_virtual("knee=shin+foot@420,200")
+    VirtualPoint(name='knee', of=('shin', 'foot'), x_px=420.0, y_px=200.0, frame=None)
+    """
+    name, equals, rest = text.partition("=")
+    of, at, place = rest.partition("@")
+    carriers = tuple(part.strip() for part in of.split("+"))
+    if not (equals and at and name.strip() and all(carriers)):
+        raise InputError("--virtual", "a point as NAME=POINT+POINT@X,Y, such as knee=shin+foot@420,200", repr(text))
+    seen = _read_seed("--virtual", "a place as X,Y or X,Y@FRAME, such as 420,200", f"{name}={place}")
+    return VirtualPoint(seen.name, carriers, seen.x_px, seen.y_px, seen.frame)
 
 
 def read_vector(text: str) -> VectorRequest:
