@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from vml_course.errors import FrameRangeError, InputError, UnknownNameError
 from vml_course.model.track import Status, Track
+from vml_course.track.interpolate import interpolated
 from vml_course.track.virtual import VirtualPoint, stretch, with_virtual, without
 
 EXACT_PX = 1e-9
@@ -126,6 +127,15 @@ def test_placed_again_it_takes_its_old_place():
     assert again.points == once.points
     assert np.allclose(again.xy_px[:, 3], AT)
     assert np.array_equal(without(again, "knee").xy_px, track.xy_px)
+
+
+def test_what_was_filled_in_carries_nothing():
+    places = np.repeat(CARRIERS[None], 4, axis=0)
+    places[1, 0] = np.nan
+    track = with_virtual(track_of(places), VirtualPoint("knee", ("p", "q"), *AT))
+    filled = interpolated(interpolated(track, "p"), "knee")
+    assert (filled.status[1, [0, 3]] == Status.INTERP).all()
+    assert with_virtual(filled, VirtualPoint("knee", ("p", "q"), *AT)).status[1, 3] == Status.LOST
 
 
 def test_points_that_do_not_stay_apart_show():

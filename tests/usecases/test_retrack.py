@@ -185,3 +185,12 @@ def test_a_check_says_when_the_trial_is_lost(video, place):
 def test_an_estimate_counts_both_ways(video, place):
     middle = (seed_at("left", place(20)[0], 20), Seed("right", *START[1]))
     assert estimate_track(request(video, middle)).frames == 30 + 21
+
+
+def test_gaps_are_filled_when_asked_and_say_so(video, seeds, place):
+    asked = request(video, seeds, fill="quadratic", settings={"give_up_frames": 15})
+    track = track_clip(asked).track
+    assert np.flatnonzero(track.status[:, 0] == Status.INTERP).tolist() == list(HIDDEN)
+    assert seen_error(track, place, range(FRAMES)) < TRACKING_PX
+    with pytest.raises(UnknownNameError, match="fill: expected one of linear, quadratic, got 'spline'"):
+        track_clip(request(video, seeds, fill="spline"))

@@ -74,6 +74,9 @@ def track(
         list[str] | None,
         typer.Option("--vector", metavar="NAME=TAIL:HEAD", help="A vector between two points. Repeatable."),
     ] = None,
+    fill: Annotated[
+        str | None, typer.Option(metavar="HOW", help="Fill gaps: linear or quadratic. They stay lost when not given.")
+    ] = None,
     method: Annotated[str, typer.Option(help="Tracker; a wrong name lists those there are.")] = "dic",
     block: Annotated[int | None, typer.Option(metavar="PX", help="Side of the block that is matched; 60 px.")] = None,
     shutter: Annotated[
@@ -113,6 +116,7 @@ def track(
         step=step,
         axis_angle_rad=math.radians(axis_angle),
         method=method,
+        fill=fill,
         settings={name: value for name, value in given.items() if value is not None},
     )
     if check:

@@ -17,6 +17,7 @@ from vml_course.track.sweep import FIELDS, blank_rows
 
 NEAREST_PX = 2.0  # carriers that are all closer to their mean tell no direction
 SMALLEST_SIGMA_PX = 1e-3
+SEEN = (Status.AUTO, Status.MANUAL)
 USUAL_BLOCK_PX = 60.0
 
 
@@ -87,7 +88,7 @@ def without(track: Track, name: str) -> Track:
     if name not in track.points:
         return track
     column = track.point_index(name)
-    if not np.isin(track.status[:, column], [Status.VIRTUAL, Status.LOST]).all():
+    if not np.isin(track.status[:, column], [Status.VIRTUAL, Status.INTERP, Status.LOST]).all():
         raise InputError(f"virtual {name}", "a name that no tracked point has", repr(name))
     arrays: dict[str, Any] = {one: np.delete(getattr(track, one), column, axis=1) for one in (*FIELDS, "reference")}
     return replace(track, points=tuple(point for point in track.points if point != name), **arrays)
@@ -158,7 +159,8 @@ def _weights(track: Track, columns: list[int], home: int) -> FloatArray:
     is_reference = track.reference[home, columns] == track.frame[home]
     at_home = np.where(is_reference & (track.status[home, columns] == Status.AUTO), 0.0, track.sigma_px[home, columns])
     variance = track.sigma_px[:, columns] ** 2 + at_home**2
-    return np.where(np.isfinite(variance), 1.0 / np.maximum(variance, SMALLEST_SIGMA_PX**2), 0.0)
+    is_seen = np.isfinite(variance) & np.isin(track.status[:, columns], SEEN)
+    return np.where(is_seen, 1.0 / np.maximum(variance, SMALLEST_SIGMA_PX**2), 0.0)
 
 
 def _by_turn(track: Track, column: int, home: int, at_px: FloatArray) -> Carried:

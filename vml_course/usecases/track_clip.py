@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from itertools import combinations
 from pathlib import Path
-
-import numpy as np
 
 from vml_course.errors import InputError, UnknownNameError
 from vml_course.io.source import Source
@@ -18,18 +15,18 @@ from vml_course.model.frame import Frame
 from vml_course.model.motion import Calibration, VectorSeries
 from vml_course.model.track import Seed, Sighting, Track
 from vml_course.model.tracked import Tracked
+from vml_course.track.interpolate import WAYS, interpolated
 from vml_course.track.places import Places
 from vml_course.track.run import run_both_ways
 from vml_course.track.tracker import make_tracker
-from vml_course.track.virtual import VirtualPoint, check_virtual, stretch
+from vml_course.track.virtual import VirtualPoint, check_virtual
 from vml_course.usecases.cut_clip import warnings_of
 from vml_course.usecases.reel import Reel, Way, open_reel
-from vml_course.usecases.retrack import fill_before_marks, seen_at, with_virtuals
+from vml_course.usecases.retrack import fill_before_marks, with_virtuals
+from vml_course.usecases.track_warnings import track_warnings
 
 __all__ = ["TrackRequest", "Tracked", "VectorRequest", "track_clip"]
 
-MERGED_PX = 1.5
-UNSTEADY = 0.02  # change of a distance on what should be a rigid body
 Progress = Callable[[int, int], None]
 
 
@@ -68,6 +65,8 @@ class TrackRequest:
         Angle of the x axis from the picture's horizontal, counter-clockwise.
     virtuals : tuple of VirtualPoint
         Points carried by tracked ones; without a frame they are seen where their first carrier is placed.
+    fill : "linear", "quadratic" or None
+        How gaps are filled, of all points; None leaves them.
     vectors : tuple of VectorRequest
         Between tracked and virtual points.
     method : str
@@ -90,6 +89,7 @@ class TrackRequest:
     settings: Mapping[str, float] = field(default_factory=dict)
     marks: tuple[Seed, ...] = ()
     virtuals: tuple[VirtualPoint, ...] = ()
+    fill: str | None = None
 
 
 def track_clip(request: TrackRequest, progress: Progress | None = None) -> Tracked:
@@ -109,8 +109,15 @@ def track_clip(request: TrackRequest, progress: Progress | None = None) -> Track
     tracker = make_tracker(request.method, **request.settings)
     places, on_frame = Places(request.seeds, request.marks), _counter(way.total, progress)
     track = run_both_ways(tracker, way.onwards, way.back, places, fps=reel.steady_fps, on_frame=on_frame)
-    track = with_virtuals(request, fill_before_marks(reel, tracker, places, track))
+    track = _filled(request, with_virtuals(request, fill_before_marks(reel, tracker, places, track)))
     return _tracked(request, reel.source, track, calibration, reel.fps)
+
+
+def _filled(request: TrackRequest, track: Track) -> Track:
+    if request.fill is not None:
+        for point in track.points:
+            track = interpolated(track, point, request.fill)
+    return track
 
 
 def check_request(request: TrackRequest) -> None:
@@ -124,6 +131,8 @@ def check_request(request: TrackRequest) -> None:
     points = tracked + [virtual.name for virtual in request.virtuals]
     _check_names("point", points)
     Places(request.seeds, request.marks)
+    if request.fill is not None and request.fill not in WAYS:
+        raise UnknownNameError("fill", request.fill, WAYS)
     for virtual in request.virtuals:
         check_virtual(virtual, tracked)
     _check_names("vector", [vector.name for vector in request.vectors])
@@ -216,13 +225,7 @@ def _tracked(
         sha256=source.sha256,
         time_base=f"{stamps}, 0 at the first frame",
         scale_relative_sd=relative_scale_sd(calibration.stick_px) if calibration and calibration.stick_px else None,
-        warnings=(
-            *warnings_of(source),
-            *_lost_points(track),
-            *_new_references(request, track),
-            *_unsteady_carriers(request, track),
-            *_merged_points(track),
-        ),
+        warnings=(*warnings_of(source), *track_warnings(request, track)),
         path=source.path,
         first_picture=request.start,
         picture_step=request.step,
@@ -232,42 +235,3 @@ def _tracked(
 def _vector(vector: VectorRequest, track: Track, axes: Calibration) -> VectorSeries:
     tail, head = (axes.to_m(track.xy_px[:, track.point_index(end)]) for end in (vector.tail, vector.head))
     return vector_series(vector.name, vector.tail, vector.head, tail, head)
-
-
-def _lost_points(track: Track) -> Iterator[str]:
-    for number, point in enumerate(track.points):
-        lost = np.flatnonzero(track.is_lost[:, number])
-        if len(lost):
-            first = int(track.frame[lost[0]])
-            yield f"{point}: lost in {len(lost)} of {len(track.frame)} frames, first in frame {first}."
-
-
-def _new_references(request: TrackRequest, track: Track) -> Iterator[str]:
-    for number, point in enumerate(track.points):
-        if point not in {seed.name for seed in request.seeds}:
-            continue
-        home = {seed.name: seed.frame for seed in request.seeds}[point]
-        first = int(track.frame[0]) if home is None else home
-        for frame in np.unique(track.reference[:, number]).tolist():
-            rows = np.flatnonzero(track.reference[:, number] == frame)
-            if frame not in {first, -1}:
-                span = f"{track.frame[rows[0]]} to {track.frame[rows[-1]]}"
-                yield f"{point}: frames {span} were compared with its block in frame {frame}, not in frame {first}."
-
-
-def _unsteady_carriers(request: TrackRequest, track: Track) -> Iterator[str]:
-    for virtual in request.virtuals:
-        change = stretch(track, seen_at(request, virtual))
-        if change > UNSTEADY:
-            names = ", ".join(virtual.of)
-            yield f"{virtual.name}: {names} do not stay the same distance apart ({100 * change:.1f} %): not one body?"
-
-
-def _merged_points(track: Track) -> Iterator[str]:
-    """Say when two points come to lie on one place: with marks that look alike, one track can jump to the other."""
-    for one, other in combinations(range(len(track.points)), 2):
-        apart = np.hypot(*(track.xy_px[:, one] - track.xy_px[:, other]).T)
-        merged = np.flatnonzero(apart < MERGED_PX)
-        if len(merged) and apart[0] > 5 * MERGED_PX:
-            first = int(track.frame[merged[0]])
-            yield f"{track.points[one]} and {track.points[other]}: on one place from frame {first} on; one has jumped."
