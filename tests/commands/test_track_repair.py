@@ -90,6 +90,12 @@ def test_carriers_that_part_are_warned_of(vml, video, tmp_path):
         (("-p", "ball=110,115", "--virtual", "ball=ball@3,4"), "point: expected each name once, got ball twice."),
         (("-p", "ball=110,115", "--virtual", "knee=ball+x@3,4"), "virtual knee: expected one of ball, got 'x'."),
         (("-p", "ball=110,115", "--virtual", "knee=ball@3,4@12"), "virtual knee: expected a frame of the clip, 0 to 9"),
+        (
+            ("-p", "ball=110,115", "--shutter", "soon"),
+            "--shutter: expected a share of the frame interval from 0 to 1, or",
+        ),
+        (("-p", "ball=110,115", "--shutter", "auto", "--method", "block"), "shutter: expected method dic, which alone"),
+        (("-p", "ball=110,115", "--fill", "spline"), "fill: expected one of linear, quadratic, got 'spline'."),
         (("-p", "ball=110,115", "--mark", "ball=3,4@0"), "ball: expected one place in a frame, got 2 in frame 0."),
     ],
 )

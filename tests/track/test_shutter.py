@@ -69,7 +69,7 @@ def test_a_point_that_is_fast_from_the_start_does_not_tell(clip):
 
 
 def test_a_point_that_cannot_be_followed_is_refused(clip):
-    with pytest.raises(SeedError):
+    with pytest.raises(SeedError, match="foot: expected a point from"):
         estimate(clip(0.5, 2), (3.0, 3.0))
 
 

@@ -80,7 +80,8 @@ def track(
     method: Annotated[str, typer.Option(help="Tracker; a wrong name lists those there are.")] = "dic",
     block: Annotated[int | None, typer.Option(metavar="PX", help="Side of the block that is matched; 60 px.")] = None,
     shutter: Annotated[
-        float | None, typer.Option(metavar="F", help="Share of the frame interval that the shutter is open, 0 to 1.")
+        str | None,
+        typer.Option(metavar="F", help="Share of the frame interval that the shutter is open, 0 to 1; auto finds it."),
     ] = None,
     estimate: Annotated[bool, typer.Option("--estimate", help="Say how long it will take, and end.")] = False,
     check: Annotated[bool, typer.Option("--check", help="Say how well each point can be tracked, and end.")] = False,
@@ -102,8 +103,7 @@ def track(
     from vml_course.usecases.track_clip import track_clip
     from vml_course.usecases.track_words import read_request
 
-    given = {"block": block, "shutter": shutter}
-    words = {"fps": fps, "scale": scale, "origin": origin}
+    words = {"fps": fps, "scale": scale, "origin": origin, "shutter": shutter}
     request = read_request(
         video,
         points or [],
@@ -117,7 +117,7 @@ def track(
         axis_angle_rad=math.radians(axis_angle),
         method=method,
         fill=fill,
-        settings={name: value for name, value in given.items() if value is not None},
+        settings={"block": block},
     )
     if check:
         raise typer.Exit(_print_checks(check_points(request), as_json))
@@ -202,9 +202,15 @@ def _print(tracked: Tracked, points: list[PointSummary], written: tuple[Path, ..
         table.add_row(one.name, _found(one), *map(_number, (one.worst_zncc, one.median_sigma_px), (3, 4)))
     Console(highlight=False).print(table)
     unit = f"{tracked.calibration.px_per_m:.6g} px/m" if tracked.calibration else "pixels only: no --scale"
-    typer.echo(f"{len(tracked.track.frame)} frames at {tracked.fps:.6g} 1/s, {unit}")
+    typer.echo(f"{len(tracked.track.frame)} frames at {tracked.fps:.6g} 1/s, {unit}{_shutter(tracked)}")
     for path in written:
         typer.echo(str(path))
+
+
+def _shutter(tracked: Tracked) -> str:
+    """Say what shutter was found in the clip, if it was looked for and found."""
+    shutter, sd = (float(tracked.track.settings.get(name, math.nan)) for name in ("shutter", "shutter_sd"))
+    return f", shutter open for {shutter:.2f} ± {sd:.2f} of a frame" if math.isfinite(sd) else ""
 
 
 def _found(one: PointSummary) -> str:
@@ -226,6 +232,7 @@ def _facts(tracked: Tracked, points: list[PointSummary], written: tuple[Path, ..
         "last_frame": int(frames[-1]),
         "fps": tracked.fps,
         "variable_rate": tracked.info.is_variable_rate,
+        "shutter": tracked.track.settings.get("shutter"),
         "px_per_m": tracked.calibration.px_per_m if tracked.calibration else None,
         "points": {
             one.name: {

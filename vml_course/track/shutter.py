@@ -22,6 +22,7 @@ from vml_course.model.frame import Frame, Luma
 from vml_course.model.track import Seed
 from vml_course.track.blur import WORTH_PX, Motion, exposed_template, left_open, length_px, motion_at, smear_px
 from vml_course.track.records import Past, Reference
+from vml_course.track.sweep import start_at
 from vml_course.track.trackers.dic import Dic
 
 TRIED = np.linspace(0.0, 1.0, 11)
@@ -94,7 +95,7 @@ def estimate_shutter(tracker: Dic, frames: Callable[[], Iterable[Frame]], seeds:
     Raises
     ------
     SeedError
-        When a point cannot be followed from where it was placed.
+        Under the point's own name, when it cannot be followed from where it was placed.
     """
 
     def ask(guess: float) -> ShutterEstimate:
@@ -141,7 +142,7 @@ def _samples(tracker: Dic, frames: Iterable[Frame], seeds: Sequence[Seed]) -> It
     taken: Counter[int] = Counter()
     for frame in islice(frames, MOST_FRAMES):
         if first is None or before is None:
-            first = state = tracker.start(frame.luma, np.array([(seed.x_px, seed.y_px) for seed in seeds]))[0]
+            first = state = start_at(tracker, frame, seeds)[0]
         else:
             state, _ = tracker.step(state, frame.luma)
             for k, (reference, past) in enumerate(zip(state.references, state.pasts, strict=True)):

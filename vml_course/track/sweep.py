@@ -69,13 +69,20 @@ def sweep(tracker: Tracker[Any], frames: Iterable[Frame], places: Places) -> Ite
 def _next(tracker: Tracker[Any], group: Group, course: _Course | None, frame: Frame, number: int) -> _Course | None:
     if course is None:
         is_here = number == 0 if group.frame is None else frame.index == group.frame
-        return _Course(*_start(tracker, frame, group.seeds), frame.index) if is_here else None
+        return _Course(*start_at(tracker, frame, group.seeds), frame.index) if is_here else None
     if frame.index in group.marks:
         return _place(tracker, course, frame, group.marks[frame.index])
     return _Course(*tracker.step(course.state, frame.luma), course.reference)
 
 
-def _start(tracker: Tracker[Any], frame: Frame, seeds: Sequence[Seed]) -> tuple[Any, Sighting]:
+def start_at(tracker: Tracker[Any], frame: Frame, seeds: Sequence[Seed]) -> tuple[Any, Sighting]:
+    """Start a tracker in a picture, where the seeds are.
+
+    Raises
+    ------
+    SeedError
+        Under the point's own name.
+    """
     points = np.array([(seed.x_px, seed.y_px) for seed in seeds], dtype=np.float64)
     try:
         return tracker.start(frame.luma, points)

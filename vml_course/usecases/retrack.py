@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from itertools import chain, islice, takewhile
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
@@ -76,9 +76,15 @@ def retrack(
     seeds = {seed.name: seed for seed in request.seeds}
     if point not in seeds:
         raise UnknownNameError("point", point, seeds)
-    tracker = make_tracker(request.method, **request.settings)
+    tracker = make_tracker(request.method, **_settings(request, track))
     again = retrack_in(open_reel(request), tracker, seeds[point], track, Stretch(frame, direction, until))
     return with_virtuals(request, again)
+
+
+def _settings(request: TrackRequest, track: Track) -> Mapping[str, float]:
+    """Return a request's settings, with the shutter that was found when it was tracked."""
+    found = track.settings.get("shutter") if request.finds_shutter else None
+    return request.settings if found is None else {**request.settings, "shutter": float(found)}
 
 
 def retrack_in(reel: Reel, tracker: Tracker[Any], seed: Seed, track: Track, stretch: Stretch) -> Track:

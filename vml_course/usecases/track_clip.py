@@ -21,6 +21,7 @@ from vml_course.track.run import run_both_ways
 from vml_course.track.tracker import make_tracker
 from vml_course.track.virtual import VirtualPoint, check_virtual
 from vml_course.usecases.cut_clip import warnings_of
+from vml_course.usecases.find_shutter import find_shutter, noted, settled
 from vml_course.usecases.reel import Reel, Way, open_reel
 from vml_course.usecases.retrack import fill_before_marks, with_virtuals
 from vml_course.usecases.track_warnings import track_warnings
@@ -65,6 +66,8 @@ class TrackRequest:
         Angle of the x axis from the picture's horizontal, counter-clockwise.
     virtuals : tuple of VirtualPoint
         Points carried by tracked ones; without a frame they are seen where their first carrier is placed.
+    finds_shutter : bool
+        Whether the open share of the shutter is found in the clip (method `dic`); it takes the place of a setting.
     fill : "linear", "quadratic" or None
         How gaps are filled, of all points; None leaves them.
     vectors : tuple of VectorRequest
@@ -90,6 +93,7 @@ class TrackRequest:
     marks: tuple[Seed, ...] = ()
     virtuals: tuple[VirtualPoint, ...] = ()
     fill: str | None = None
+    finds_shutter: bool = False
 
 
 def track_clip(request: TrackRequest, progress: Progress | None = None) -> Tracked:
@@ -106,11 +110,12 @@ def track_clip(request: TrackRequest, progress: Progress | None = None) -> Track
     reel = open_reel(request)
     calibration = _calibration(request, reel.source)
     way = _way(request, reel)
-    tracker = make_tracker(request.method, **request.settings)
+    found = find_shutter(request, reel) if request.finds_shutter else None
+    tracker = make_tracker(request.method, **settled(request, found))
     places, on_frame = Places(request.seeds, request.marks), _counter(way.total, progress)
     track = run_both_ways(tracker, way.onwards, way.back, places, fps=reel.steady_fps, on_frame=on_frame)
     track = _filled(request, with_virtuals(request, fill_before_marks(reel, tracker, places, track)))
-    return _tracked(request, reel.source, track, calibration, reel.fps)
+    return _tracked(request, reel.source, noted(track, found), calibration, reel.fps)
 
 
 def _filled(request: TrackRequest, track: Track) -> Track:
@@ -127,14 +132,7 @@ def check_request(request: TrackRequest) -> None:
     ------
     UnknownNameError, InputError
     """
-    tracked = [seed.name for seed in request.seeds]
-    points = tracked + [virtual.name for virtual in request.virtuals]
-    _check_names("point", points)
-    Places(request.seeds, request.marks)
-    if request.fill is not None and request.fill not in WAYS:
-        raise UnknownNameError("fill", request.fill, WAYS)
-    for virtual in request.virtuals:
-        check_virtual(virtual, tracked)
+    points = _check_points(request)
     _check_names("vector", [vector.name for vector in request.vectors])
     for vector in request.vectors:
         for end in (vector.tail, vector.head):
@@ -142,9 +140,23 @@ def check_request(request: TrackRequest) -> None:
                 raise UnknownNameError(f"vector {vector.name}", end, points)
         if vector.tail == vector.head:
             raise InputError(f"vector {vector.name}", "two different points", f"{vector.tail} twice")
+    if request.finds_shutter and request.method != "dic":
+        raise InputError("shutter", "method dic, which alone knows of motion blur", request.method)
     if not math.isfinite(request.axis_angle_rad):
         raise InputError("axis angle", "a number of degrees", request.axis_angle_rad)
     make_tracker(request.method, **request.settings)
+
+
+def _check_points(request: TrackRequest) -> list[str]:
+    tracked = [seed.name for seed in request.seeds]
+    points = tracked + [virtual.name for virtual in request.virtuals]
+    _check_names("point", points)
+    Places(request.seeds, request.marks)
+    for virtual in request.virtuals:
+        check_virtual(virtual, tracked)
+    if request.fill is not None and request.fill not in WAYS:
+        raise UnknownNameError("fill", request.fill, WAYS)
+    return points
 
 
 def check_video(request: TrackRequest) -> None:

@@ -10,6 +10,7 @@ import numpy as np
 
 from vml_course.model.track import Track
 from vml_course.track.virtual import stretch
+from vml_course.usecases.find_shutter import SHUTTER_SD
 from vml_course.usecases.retrack import seen_at
 
 if TYPE_CHECKING:
@@ -22,11 +23,17 @@ UNSTEADY = 0.02  # change of a distance on what should be a rigid body
 def track_warnings(request: TrackRequest, track: Track) -> tuple[str, ...]:
     """Return one sentence for each thing that a person should look at."""
     return (
+        *_silent_shutter(request, track),
         *_lost_points(track),
         *_new_references(request, track),
         *_unsteady_carriers(request, track),
         *_merged_points(track),
     )
+
+
+def _silent_shutter(request: TrackRequest, track: Track) -> Iterator[str]:
+    if request.finds_shutter and SHUTTER_SD not in track.settings:
+        yield "shutter: the clip does not tell; no point that was still at first is fast enough. Blur is left alone."
 
 
 def _lost_points(track: Track) -> Iterator[str]:

@@ -41,9 +41,10 @@ def read_request(
     vectors : sequence of str
         `NAME=TAIL:HEAD` each.
     words : mapping
-        `fps`, `scale` (`X1,Y1,X2,Y2=LENGTH`) and `origin` (`X,Y`), None where nothing was typed.
+        `fps`, `scale` (`X1,Y1,X2,Y2=LENGTH`), `origin` (`X,Y`) and `shutter` (a share or `auto`), None where nothing
+        was typed.
     **settled
-        Fields of `TrackRequest` that are no words.
+        Fields of `TrackRequest` that are no words; a setting of None was not typed.
 
     Raises
     ------
@@ -55,6 +56,8 @@ def read_request(
     stick, length_m, length_text = read_scale(words.get("scale"))
     origin = words.get("origin")
     fps = words.get("fps")
+    shutter, finds_shutter = read_shutter(words.get("shutter"))
+    given = {**settled.pop("settings", {}), "shutter": shutter}
     return TrackRequest(
         video=video,
         seeds=tuple(map(read_point, points)),
@@ -64,6 +67,8 @@ def read_request(
         stick_px=stick,
         length_m=length_m,
         length_text=length_text,
+        settings={name: value for name, value in given.items() if value is not None},
+        finds_shutter=finds_shutter,
         origin_px=_pair("--origin", origin) if origin is not None else None,
         fps=read_quantity(fps, "rate", "1/s", name="--fps").value if fps is not None else None,
         **settled,
@@ -116,6 +121,19 @@ def read_virtual(text: str) -> VirtualPoint:
         raise InputError("--virtual", "a point as NAME=POINT+POINT@X,Y, such as knee=shin+foot@420,200", repr(text))
     seen = _read_seed("--virtual", "a place as X,Y or X,Y@FRAME, such as 420,200", f"{name}={place}")
     return VirtualPoint(seen.name, carriers, seen.x_px, seen.y_px, seen.frame)
+
+
+def read_shutter(text: str | None) -> tuple[float | None, bool]:
+    """Read a share from 0 to 1, or `auto`: the share, and whether it is to be found in the clip.
+
+    >>> read_shutter("0.5"), read_shutter("auto"), read_shutter(None)
+    ((0.5, False), (None, True), (None, False))
+    """
+    if text is None or text.strip() == "auto":
+        return None, text is not None
+    if not _NUMBER.fullmatch(text.strip()):
+        raise InputError("--shutter", "a share of the frame interval from 0 to 1, or auto", repr(text))
+    return float(text), False
 
 
 def read_vector(text: str) -> VectorRequest:
