@@ -72,6 +72,15 @@ def test_every_method_goes_both_ways(clip_of, speckle, error_of, method):
     assert error_of(track, poses, [START]).max() < 0.1
 
 
+@pytest.mark.parametrize("method", tracker_names())
+def test_every_method_goes_on_from_a_mark(clip_of, speckle, error_of, method):
+    poses = [(np.eye(2), (1.7 * k, -0.6 * k)) for k in range(6)]
+    places = Places((Seed("a", *START),), (seed_at("a", speckle.moved(START, *poses[3]), 3),))
+    track = run_both_ways(make_tracker(method, block=41), clip_of(poses), (), places)
+    assert track.status[3, 0] == Status.MANUAL
+    assert error_of(track, poses, [START]).max() < 0.1
+
+
 def test_points_placed_in_different_pictures_share_a_track(tracker, clip, error_of, place):
     track = both_ways(tracker, clip, Places((place(9, "late"), place(2, "early"), Seed("first", *START))))
     assert track.points == ("late", "early", "first")
