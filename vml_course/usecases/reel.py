@@ -82,6 +82,10 @@ class Reel:
             raise FrameRangeError(name, f"a frame of the clip, {first} to {last}{by}", frame)
         return found[0]
 
+    def picture(self, row: int) -> Frame:
+        """Decode one picture of the file."""
+        return next(self._timed(self.source.frames(row, row, 1)))
+
     def onwards(self, row: int) -> Iterator[Frame]:
         """Decode from a picture of the file to the last one."""
         return self._timed(self.source.frames(row, self.rows[-1], self.rows.step))

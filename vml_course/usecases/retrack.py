@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from itertools import chain, islice, takewhile
+from itertools import islice, takewhile
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from vml_course.errors import InputError, UnknownNameError
@@ -143,11 +143,10 @@ def seen_at(request: TrackRequest, virtual: VirtualPoint) -> VirtualPoint:
 
 def _pictures(reel: Reel, home: int, stretch: Stretch) -> Iterator[Frame]:
     """Yield the picture of the reference, then those to be tracked."""
+    if home != stretch.frame:
+        yield reel.picture(reel.row("seed", home))
     row = reel.row("frame", stretch.frame)
-    onwards = reel.onwards(row) if stretch.direction == "forward" else reel.backwards(row)
-    if home == stretch.frame:
-        return onwards
-    return chain(islice(reel.onwards(reel.row("seed", home)), 1), onwards)
+    yield from reel.onwards(row) if stretch.direction == "forward" else reel.backwards(row)
 
 
 def _after(frame: int, glimpses: Iterator[Glimpse]) -> Iterator[Glimpse]:
