@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+from dataclasses import replace
+from itertools import combinations
 from pathlib import Path
 
 import numpy as np
@@ -7,7 +9,7 @@ import pytest
 
 from vml_course.errors import FileFormatError, VideoError
 from vml_course.io.drawing import BLUE, MARKS, YELLOW
-from vml_course.io.overlay import block_corners, write_overlay
+from vml_course.io.overlay import Scenery, block_corners, draw_row, write_overlay
 from vml_course.io.video import bgr_of, probe, read_pictures, write_video
 from vml_course.kinetics.vectors import vector_series
 from vml_course.model.frame import Picture, VideoInfo
@@ -92,3 +94,29 @@ def test_an_overlay_needs_its_video_and_a_known_ending(tmp_path: Path, tracked: 
     with pytest.raises(VideoError):
         write_overlay(tmp_path / "overlay.mp4", Tracked(**{**vars(tracked), "path": None}))
     assert list(tmp_path.iterdir()) == []
+
+
+def test_how_a_place_came_about_shows_in_the_shape_of_its_mark(tracked: Tracked) -> None:
+    kinds = [Status.AUTO, Status.MANUAL, Status.INTERP, Status.VIRTUAL]
+    status = np.array(tracked.track.status)
+    status[: len(kinds), 0] = kinds
+    gradient = np.array(tracked.track.gradient)
+    gradient[1 : len(kinds), 0] = np.nan
+    size = 1.5
+    marked = replace(tracked, track=replace(tracked.track, status=status, gradient=gradient), vectors=())
+    scenery = Scenery(marked, 1, size, "real speed", 0.0)
+    plain = np.full((HEIGHT, WIDTH, 3), 128, np.uint8)
+    crops = [draw_row(plain.copy(), scenery, row)[255:345, 255:345].astype(int) for row in range(len(kinds))]
+    for one, other in combinations(range(len(kinds)), 2):
+        assert (np.abs(crops[one] - crops[other]).max(axis=2) > NEAR).sum() > 40
+
+    def is_drawn(row: int, dx: float, dy: float) -> bool:
+        return has_colour(
+            crops[row][45 + round(dy) - 1 : 47 + round(dy), 45 + round(dx) - 1 : 47 + round(dx)], MARKS[0]
+        )
+
+    side = 0.5 * 15 * size
+    assert [is_drawn(row, side, side) for row in range(2)] == [False, True]  # a diamond's side
+    assert [is_drawn(row, 30, 10) for row in range(4)] == [True, False, False, False]  # a block's edge
+    assert [is_drawn(row, 9 * size, 0) for row in range(4)] == [True, True, True, True]  # an arm of the cross, a ring
+    assert [is_drawn(row, 5 * size, 0) for row in range(4)] == [True, True, False, False]  # the cross alone

@@ -5,7 +5,8 @@ import pytest
 
 from vml_course.correlate.icgn import Outcome, match
 from vml_course.correlate.template import build_template, cut_patch
-from vml_course.track.good_spots import good_spots, sigma_map
+from vml_course.errors import InputError
+from vml_course.track.good_spots import good_spots, inside, sigma_map
 from vml_course.track.plain_words import sentence
 from vml_course.track.trackability import Verdict, noise_between, trackability
 
@@ -172,3 +173,17 @@ def test_good_spots_keep_within_the_lasso(speckle, camera_of):
 @pytest.mark.parametrize("kind", ["plain", "shaded", "checker"])
 def test_there_are_no_good_spots_where_nothing_can_be_tracked(camera_of, kind):
     assert good_spots(camera_of(PLANTED[kind], NOISE), 30, noise=NOISE) == []
+
+
+def test_a_lasso_is_a_polygon(speckle, camera_of):
+    triangle = np.array([[40.0, 60.0], [150.0, 70.0], [80.0, 160.0]])
+    within = inside(triangle, SHAPE)
+    assert within[90, 90]
+    assert not within[150, 140]
+    area, border = 0.5 * (110 * 100 - 10 * 40), sum(np.hypot(*(triangle - np.roll(triangle, 1, 0)).T))
+    assert area <= within.sum() <= area + 0.5 * border  # what lies on the line counts
+    spots = good_spots(camera_of(speckle.picture(), NOISE), 30, 5, within=within, noise=NOISE)
+    assert len(spots) == 5
+    assert all(within[round(y + 0.5), round(x + 0.5)] for (x, y), _ in spots)
+    with pytest.raises(InputError, match="lasso: expected three or more corners"):
+        inside(triangle[:2], SHAPE)

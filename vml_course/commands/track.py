@@ -36,7 +36,28 @@ def track(
     ],
     points: Annotated[
         list[str] | None,
-        typer.Option("-p", "--point", metavar="NAME=X,Y", help="A point in the first frame, px, y down. Repeatable."),
+        typer.Option(
+            "-p",
+            "--point",
+            metavar="NAME=X,Y[@FRAME]",
+            help="A point, px, y down, in the first frame or in FRAME: it is tracked both ways. Repeatable.",
+        ),
+    ] = None,
+    marks: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--mark",
+            metavar="NAME=X,Y@FRAME",
+            help="Where a point is in a further frame, by hand: tracking goes on from there. Repeatable.",
+        ),
+    ] = None,
+    virtuals: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--virtual",
+            metavar="NAME=A+B@X,Y",
+            help="A point carried by tracked ones of the same body, and where it is seen. Repeatable.",
+        ),
     ] = None,
     start: Annotated[int, typer.Option(help="First frame of the file, counted from 0.")] = 0,
     end: Annotated[int | None, typer.Option(help="Last frame of the file; the last one when not given.")] = None,
@@ -58,10 +79,14 @@ def track(
         list[str] | None,
         typer.Option("--vector", metavar="NAME=TAIL:HEAD", help="A vector between two points. Repeatable."),
     ] = None,
+    fill: Annotated[
+        str | None, typer.Option(metavar="HOW", help="Fill gaps: linear or quadratic. They stay lost when not given.")
+    ] = None,
     method: Annotated[str, typer.Option(help="Tracker; a wrong name lists those there are.")] = "dic",
     block: Annotated[int | None, typer.Option(metavar="PX", help="Side of the block that is matched; 60 px.")] = None,
     shutter: Annotated[
-        float | None, typer.Option(metavar="F", help="Share of the frame interval that the shutter is open, 0 to 1.")
+        str | None,
+        typer.Option(metavar="F", help="Share of the frame interval that the shutter is open, 0 to 1; auto finds it."),
     ] = None,
     estimate: Annotated[bool, typer.Option("--estimate", help="Say how long it will take, and end.")] = False,
     check: Annotated[bool, typer.Option("--check", help="Say how well each point can be tracked, and end.")] = False,
@@ -83,19 +108,21 @@ def track(
     from vml_course.usecases.track_clip import track_clip
     from vml_course.usecases.track_words import read_request
 
-    given = {"block": block, "shutter": shutter}
-    words = {"fps": fps, "scale": scale, "origin": origin}
+    words = {"fps": fps, "scale": scale, "origin": origin, "shutter": shutter}
     request = read_request(
         video,
         points or [],
         vectors or [],
         words,
+        marks=marks or [],
+        virtuals=virtuals or [],
         start=start,
         end=end,
         step=step,
         axis_angle_rad=math.radians(axis_angle),
         method=method,
-        settings={name: value for name, value in given.items() if value is not None},
+        fill=fill,
+        settings={"block": block},
     )
     if check:
         raise typer.Exit(_print_checks(check_points(request), as_json))
@@ -142,6 +169,7 @@ def _check_facts(one: PointCheck) -> dict[str, Any]:
         "verdict": found.verdict.value,
         "sigma_px": found.sigma_px if math.isfinite(found.sigma_px) else None,
         "noise_grey": found.noise_grey,
+        "returns_px": one.returns_px if math.isfinite(one.returns_px) else None,
         "rival_zncc": found.rival.zncc,
         "rival_offset_px": found.rival.offset_px,
         "text": one.text,
@@ -176,12 +204,28 @@ def _print(tracked: Tracked, points: list[PointSummary], written: tuple[Path, ..
     for name in ("point", "found", "worst ZNCC", "sigma px (median)"):
         table.add_column(name, no_wrap=True, justify="left" if name == "point" else "right")
     for one in points:
-        table.add_row(one.name, f"{one.found} of {one.frames}", f"{one.worst_zncc:.3f}", f"{one.median_sigma_px:.4f}")
+        table.add_row(one.name, _found(one), *map(_number, (one.worst_zncc, one.median_sigma_px), (3, 4)))
     Console(highlight=False).print(table)
     unit = f"{tracked.calibration.px_per_m:.6g} px/m" if tracked.calibration else "pixels only: no --scale"
-    typer.echo(f"{len(tracked.track.frame)} frames at {tracked.fps:.6g} 1/s, {unit}")
+    typer.echo(f"{len(tracked.track.frame)} frames at {tracked.fps:.6g} 1/s, {unit}{_shutter(tracked)}")
     for path in written:
         typer.echo(str(path))
+
+
+def _shutter(tracked: Tracked) -> str:
+    """Say what shutter was found in the clip, if it was looked for and found."""
+    shutter, sd = (float(tracked.track.settings.get(name, math.nan)) for name in ("shutter", "shutter_sd"))
+    return f", shutter open for {shutter:.2f} ± {sd:.2f} of a frame" if math.isfinite(sd) else ""
+
+
+def _found(one: PointSummary) -> str:
+    """Say in how many frames a point has a place, and in how many of them it was not tracked."""
+    others = [f"{count} {status}" for status, count in one.statuses.items() if status not in {"auto", "lost"}]
+    return f"{one.found} of {one.frames}" + (f" ({', '.join(others)})" if others else "")
+
+
+def _number(value: float, digits: int) -> str:
+    return f"{value:.{digits}f}" if math.isfinite(value) else "-"
 
 
 def _facts(tracked: Tracked, points: list[PointSummary], written: tuple[Path, ...]) -> dict[str, Any]:
@@ -193,14 +237,16 @@ def _facts(tracked: Tracked, points: list[PointSummary], written: tuple[Path, ..
         "last_frame": int(frames[-1]),
         "fps": tracked.fps,
         "variable_rate": tracked.info.is_variable_rate,
+        "shutter": tracked.track.settings.get("shutter"),
         "px_per_m": tracked.calibration.px_per_m if tracked.calibration else None,
         "points": {
             one.name: {
                 "found": one.found,
                 "lost": one.frames - one.found,
-                "worst_zncc": one.worst_zncc,
-                "median_sigma_px": one.median_sigma_px,
-                "renewed_at": one.renewed_at,
+                "statuses": dict(one.statuses),
+                "worst_zncc": one.worst_zncc if math.isfinite(one.worst_zncc) else None,
+                "median_sigma_px": one.median_sigma_px if math.isfinite(one.median_sigma_px) else None,
+                "references": one.references,
                 "drift_px": one.drift_px,
             }
             for one in points

@@ -117,6 +117,8 @@ def _quality_of(tracked: Tracked, number: int, point: str, name: str) -> Iterato
     yield Column(f"{name}_iterations", track.iterations[:, number], "", meaning, "", source, "0")
     meaning = f"how {point} was found: auto, manual, interp, lost, virtual"
     yield Column(f"{name}_status", status_words(track.status[:, number]), "", meaning, "", source)
+    meaning = f"number of the frame whose block {point} was compared with"
+    yield Column(f"{name}_reference", track.reference[:, number], "", meaning, "", source, "0")
     for place, letters in enumerate(GRADIENTS):
         meaning = f"displacement gradient d{letters[0]}/d{letters[2]} of {point}'s block"
         yield Column(f"{name}_{letters}", track.gradient[:, number, place], "", meaning, IMAGE, source, "0.00000")

@@ -70,6 +70,17 @@ class Pen:
         for ax, ay in ((1, 0), (-1, 0), (0, 1), (0, -1)):
             self.line([(x + near * ax, y + near * ay), (x + far * ax, y + far * ay)], colour, 2)
 
+    def diamond(self, at: Point, colour: Colour) -> None:
+        """Draw a diamond about a place: put there by hand."""
+        (x, y), far = at, 15 * self.size
+        self.line([(x + far, y), (x, y + far), (x - far, y), (x, y - far)], colour, 2, is_closed=True)
+
+    def ring(self, at: Point, colour: Colour, radius: float) -> None:
+        """Draw a ring about a place."""
+        reach, angles = radius * self.size, np.linspace(0.0, 2.0 * np.pi, 32, endpoint=False)
+        x, y = at
+        self.line([(x + reach * np.cos(a), y + reach * np.sin(a)) for a in angles], colour, 2, is_closed=True)
+
     def text(self, words: str, at: Point, colour: Colour, height: float = 0.75) -> None:
         """Write words with a dark outline; `at` is their lower left corner."""
         # The outline is the same writing, shifted: in some OpenCV versions a thicker stroke makes wider letters.

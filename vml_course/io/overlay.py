@@ -12,13 +12,14 @@ import cv2
 import numpy as np
 
 from vml_course.errors import VideoError
-from vml_course.io.drawing import BLUE, LIGHT_BLUE, MARKS, RED, WHITE, YELLOW, Image, Pen, Point
+from vml_course.io.drawing import BLUE, LIGHT_BLUE, MARKS, RED, WHITE, YELLOW, Colour, Image, Pen, Point
 from vml_course.io.encode import write_video
 from vml_course.io.planes import bgr_of, picture_from_bgr
 from vml_course.io.source import open_source
 from vml_course.model.arrays import FloatArray
 from vml_course.model.frame import Picture
 from vml_course.model.motion import VectorSeries
+from vml_course.model.track import Status
 from vml_course.model.tracked import Tracked
 
 Progress = Callable[[int, int], None]
@@ -26,6 +27,7 @@ PLAYBACK_FPS = 30.0
 TRAIL_FRAMES = 90
 SMALLEST_HEIGHT = 540  # smaller pictures are enlarged by a whole number, so that texts can be read
 QUALITY_CRF = 18
+NAMED = ((Status.MANUAL, "by hand", WHITE), (Status.INTERP, "filled in", WHITE), (Status.LOST, "lost", RED))
 
 
 @dataclass(frozen=True, eq=False)
@@ -135,13 +137,27 @@ def _draw_point(pen: Pen, scenery: Scenery, row: int, number: int, name: str) ->
     at, colour = _point(scenery.place(track.xy_px[row, number])), MARKS[number % len(MARKS)]
     if at is None:
         return
-    side = float(track.settings.get("block", 0)) * scenery.zoom
+    status = Status(int(track.status[row, number]))
+    has_block = status is Status.AUTO or bool(np.isfinite(track.gradient[row, number]).all())
+    side = float(track.settings.get("block", 0)) * scenery.zoom if has_block else 0.0
     corners = block_corners(at, side, track.gradient[row, number])
     if side:
         pen.line(corners, colour, 1.5, is_closed=True)
-    pen.cross(at, colour)
+    _draw_mark(pen, at, colour, status)
     top = min(y for _, y in corners) - 6 * pen.size
     pen.text(name, (at[0] + 12 * pen.size, min(top, at[1] - 16 * pen.size)), colour)
+
+
+def _draw_mark(pen: Pen, at: Point, colour: Colour, status: Status) -> None:
+    """Draw a cross where a point was tracked, a diamond about it where it was put by hand, rings where reckoned."""
+    if status is Status.MANUAL:
+        pen.diamond(at, colour)
+    if status in {Status.INTERP, Status.VIRTUAL}:
+        pen.ring(at, colour, 9)
+    if status is Status.VIRTUAL:
+        pen.ring(at, colour, 14)
+    if status in {Status.AUTO, Status.MANUAL}:
+        pen.cross(at, colour)
 
 
 def block_corners(at: Point, side: float, gradient: FloatArray) -> list[Point]:
@@ -169,12 +185,13 @@ def _draw_vector(pen: Pen, scenery: Scenery, row: int, vector: VectorSeries) -> 
 
 def _draw_clock(pen: Pen, scenery: Scenery, row: int) -> None:
     track = scenery.tracked.track
-    lost = [name for number, name in enumerate(track.points) if track.is_lost[row, number]]
     lines = [(f"frame {track.frame[row]}   t = {track.time_s[row]:.4f} s", WHITE), (scenery.speed, WHITE)]
     angles = [(vector.name, np.degrees(vector.angle_rad[row])) for vector in scenery.tracked.vectors]
     lines += [(f"{name} {angle:.1f} deg", LIGHT_BLUE) for name, angle in angles if np.isfinite(angle)]
-    if lost:
-        lines.append((f"lost: {', '.join(lost)}", RED))
+    for status, words, colour in NAMED:
+        names = [name for name, code in zip(track.points, track.status[row], strict=True) if code == status]
+        if names:
+            lines.append((f"{words}: {', '.join(names)}", colour))
     gap = round(10 * pen.size)
     widest = max(pen.text_size(words)[0] for words, _ in [*lines, ("frame 0000   t = 0.0000 s", WHITE)])
     tall = round(30 * pen.size)

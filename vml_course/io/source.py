@@ -8,6 +8,7 @@ from fractions import Fraction
 from pathlib import Path
 
 from vml_course.errors import FileFormatError
+from vml_course.io.backwards import frames_backwards
 from vml_course.io.clip_note import ClipNote, note_path, read_note
 from vml_course.io.files import sha256_of_all
 from vml_course.io.index import PictureIndex
@@ -60,6 +61,11 @@ class Source:
     def frames(self, start: int, end: int | None, step: int) -> Iterator[Frame]:
         """Decode luma; `start`, `end` count the file's own pictures, numbers and times are the source's."""
         decoded = frames_of(self.index, start, end, step)
+        return self._renumbered(decoded) if self.note else decoded
+
+    def frames_backwards(self, start: int, end: int | None, step: int) -> Iterator[Frame]:
+        """Decode what `frames` does, the last picture first, in a room that does not grow with the clip."""
+        decoded = frames_backwards(self.index, start, end, step)
         return self._renumbered(decoded) if self.note else decoded
 
     def pictures(self, start: int, end: int | None, step: int) -> Iterator[ColourFrame]:

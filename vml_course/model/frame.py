@@ -72,3 +72,8 @@ class VideoInfo:
     container: str
     damage: str = ""
     pixel_aspect: float = 1.0
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Height and width of a picture, as arrays have them."""
+        return self.height_px, self.width_px

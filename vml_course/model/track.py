@@ -25,11 +25,12 @@ class Status(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class Seed:
-    """A point to track: its name and where it is in the first frame (sub-pixel, y down)."""
+    """Where a point was placed: its name, its place (sub-pixel, y down), and in which frame; None: in the first."""
 
     name: str
     x_px: float
     y_px: float
+    frame: int | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,6 +93,9 @@ class Track:
         As in `Sighting`, with a leading axis n.
     settings : mapping of str to (str, int or float)
         How it was tracked: method, block, ...
+    reference : int array, shape (n, p)
+        Number of the frame whose block the point was compared with; where it changes, the point was referenced
+        anew. The first frame everywhere when left out.
     """
 
     points: tuple[str, ...]
@@ -105,6 +109,7 @@ class Track:
     gradient: FloatArray
     settings: Mapping[str, str | int | float] = field(default_factory=dict)
     drift_px: FloatArray = field(default_factory=lambda: np.zeros(0))
+    reference: IntArray = field(default=None)  # type: ignore[arg-type] # filled in below
 
     def __post_init__(self) -> None:
         axes, p = Axes(), len(self.points)
@@ -120,21 +125,18 @@ class Track:
             status=axes.freeze("status", self.status, "n", p, dtype=np.int8),
             gradient=axes.freeze("gradient", self.gradient, "n", p, 4),
             drift_px=axes.freeze("drift_px", drift_px, "n", p),
+            reference=axes.freeze("reference", self._reference(p), "n", p, dtype=np.int64),
         )
+
+    def _reference(self, p: int) -> IntArray:
+        if self.reference is not None:
+            return self.reference
+        return np.full((len(self.frame), p), self.frame[0] if len(self.frame) else 0)
 
     @property
     def is_lost(self) -> NDArray[np.bool_]:
         """Where a point was not found: shape (n, p)."""
         return np.asarray(self.status == Status.LOST)
-
-    def renewals(self, point: int) -> IntArray:
-        """Return the rows from which on a point was compared with a block that was cut anew.
-
-        The block comes from the row before. A method that compares each picture with the one before has one a row.
-        """
-        drift = self.drift_px[:, point]
-        known = np.flatnonzero(np.isfinite(drift))
-        return np.asarray(known[1:][np.diff(drift[known]) > 0.0])
 
     def point_index(self, name: str) -> int:
         """Return the column of a point.

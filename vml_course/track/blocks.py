@@ -19,13 +19,12 @@ TILES = 4  # along each side of a block, whose pulls are compared
 
 
 class Found(NamedTuple):
-    """One point in one picture: place, sigma of a coordinate, ZNCC with the first block, steps, drift within sigma."""
+    """One point in one picture: place, standard deviation of a coordinate, ZNCC with the first block, steps."""
 
     xy_px: FloatArray
     sigma_px: float
     zncc: float
     iterations: int
-    drift_px: float
 
 
 def check_block(luma: Luma, name: str, point: tuple[float, float], size: int) -> None:
@@ -35,7 +34,7 @@ def check_block(luma: Luma, name: str, point: tuple[float, float], size: int) ->
     ------
     SeedError
     """
-    check_block_fits(luma, name, point, size)
+    check_block_fits(luma.shape, name, point, size)
     check_texture(cut(luma, point, size), name, point)
 
 
@@ -54,14 +53,14 @@ def check_texture(block: FloatArray | Luma, name: str, point: tuple[float, float
         raise SeedError(name, expected, "only an edge, along which it slides", "Take a corner or a larger block.")
 
 
-def check_block_fits(luma: Luma, name: str, point: tuple[float, float], size: int) -> None:
-    """Refuse a point whose block does not lie inside the picture.
+def check_block_fits(shape: tuple[int, ...], name: str, point: tuple[float, float], size: int) -> None:
+    """Refuse a point whose block does not lie inside a picture of this shape.
 
     Raises
     ------
     SeedError
     """
-    height, width = luma.shape
+    height, width = shape
     if np.all(np.isfinite(point)):
         x0, y0 = (first_pixel(c, size) for c in point)
         if 0 <= x0 <= width - size and 0 <= y0 <= height - size:
@@ -168,10 +167,10 @@ def first_sighting(points: FloatArray, sigma_px: FloatArray) -> Sighting:
 def sighting_of(found: Sequence[Found | None]) -> Sighting:
     """Return the sighting of points, None where lost; what a method that only shifts cannot see is NaN."""
     p = len(found)
-    xy, sigma, likeness, drift = np.full((p, 2), np.nan), *(np.full(p, np.nan) for _ in range(3))
+    xy, sigma, likeness = np.full((p, 2), np.nan), np.full(p, np.nan), np.full(p, np.nan)
     iterations, status = np.zeros(p, np.int64), np.full(p, Status.LOST, np.int8)
     for k, one in enumerate(found):
         if one is not None:
-            xy[k], sigma[k], likeness[k], iterations[k], drift[k] = one
+            xy[k], sigma[k], likeness[k], iterations[k] = one
             status[k] = Status.AUTO
-    return Sighting(xy, sigma, likeness, iterations, status, np.full((p, 4), np.nan), drift)
+    return Sighting(xy, sigma, likeness, iterations, status, np.full((p, 4), np.nan))

@@ -6,8 +6,10 @@ from typing import NamedTuple
 
 import cv2
 import numpy as np
+from numpy.typing import NDArray
 
 from vml_course.correlate.texture import GRADIENT_NOISE, LEAST_NOISE, noise_grey
+from vml_course.errors import InputError
 from vml_course.model.arrays import FloatArray
 from vml_course.model.frame import Luma
 from vml_course.track.trackability import SIGNIFICANT, Trackability, Verdict, trackability
@@ -68,7 +70,7 @@ def good_spots(
     block, count : int
         Fewer are returned when there are not so many; no two blocks overlap by more than half.
     within : bool array, shape (height, width), optional
-        Where to look, such as inside a drawn lasso.
+        Where a block's middle may be, such as `inside` a drawn lasso.
     search_px, noise
         As in `trackability`.
     """
@@ -83,6 +85,33 @@ def good_spots(
             spots.append(Spot(at, found))
     spots.sort(key=lambda spot: (spot.found.verdict is not Verdict.GOOD, spot.found.sigma_px))
     return spots[:count]
+
+
+def inside(polygon_px: FloatArray, shape: tuple[int, int]) -> NDArray[np.bool_]:
+    """Return which pixels lie inside a drawn lasso, or on it: shape (height, width).
+
+    Parameters
+    ----------
+    polygon_px : float array, shape (k, 2)
+        Its corners, px, at least three; the last is joined to the first. It may leave the picture.
+    shape : (height, width)
+
+    Raises
+    ------
+    InputError
+        When it has fewer corners, or one is no number.
+
+    >>> inside(np.array([[1, 0], [2, 0], [2, 1], [1, 1]]), (3, 4)).astype(int)
+    array([[0, 1, 1, 0],
+           [0, 1, 1, 0],
+           [0, 0, 0, 0]])
+    """
+    corners = np.asarray(polygon_px, dtype=np.float64)
+    if corners.ndim != 2 or corners.shape[1] != 2 or len(corners) < 3 or not np.isfinite(corners).all():
+        raise InputError("lasso", "three or more corners x, y in px", f"an array of shape {corners.shape}")
+    mask = np.zeros(shape, np.uint8)
+    cv2.fillPoly(mask, [np.round(np.clip(corners, -1e4, 1e5)).astype(np.int32)], 1)
+    return mask.astype(bool)
 
 
 def _valleys(sigma: FloatArray, apart_px: int, count: int) -> list[tuple[int, int]]:

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from itertools import chain
 from typing import Any
 
 import numpy as np
 
-from vml_course.errors import FrameRangeError, InputError, SeedError
-from vml_course.model.arrays import FloatArray
+from vml_course.errors import FrameRangeError, InputError
 from vml_course.model.frame import Frame
 from vml_course.model.track import Seed, Sighting, Track
+from vml_course.track.assembly import Entry, assemble
+from vml_course.track.places import Places
 from vml_course.track.prefetch import prefetched
-from vml_course.track.scatter import vouched
+from vml_course.track.sweep import Glimpse, sweep
 from vml_course.track.tracker import Tracker
 
 OnFrame = Callable[[Frame, Sighting], None]
@@ -56,57 +58,60 @@ def run(
     InputError
         When there is no seed, a name comes twice, or `fps` is not positive.
     """
-    _check(seeds, fps)
-    seen: list[Sighting] = []
-    shown: list[tuple[int, float]] = []
-    with prefetched(frames) as pictures:
-        for frame, sighting in _sightings(tracker, pictures, seeds):
-            shown.append((frame.index, frame.time_s))
-            seen.append(sighting)
-            if on_frame is not None:
-                on_frame(frame, sighting)
-    if not seen:
-        raise FrameRangeError("frames", "at least one picture to track in", "none")
-    index, stamp_s = np.array([i for i, _ in shown]), np.array([t for _, t in shown])
-    time_s = stamp_s - stamp_s[0] if fps is None else (index - index[0]) / fps
-    return vouched(_assemble(tracker, tuple(seed.name for seed in seeds), index, time_s, seen))
+    return run_both_ways(tracker, frames, (), Places(tuple(seeds)), fps=fps, on_frame=on_frame)
 
 
-def _sightings(
-    tracker: Tracker[Any], frames: Iterator[Frame], seeds: Sequence[Seed]
-) -> Iterator[tuple[Frame, Sighting]]:
-    state = None
-    for frame in frames:
-        if state is None:
-            state, sighting = _start(tracker, frame, seeds)
-        else:
-            state, sighting = tracker.step(state, frame.luma)
-        yield frame, sighting
+def run_both_ways(
+    tracker: Tracker[Any],
+    onwards: Iterable[Frame],
+    back: Iterable[Frame],
+    places: Places,
+    *,
+    fps: float | None = None,
+    on_frame: OnFrame | None = None,
+) -> Track:
+    """Track points from where they were placed, on to the last picture and back to the first.
 
+    Parameters
+    ----------
+    tracker : Tracker
+    onwards : iterable of Frame
+        From the first picture in which a point is placed, on.
+    back : iterable of Frame
+        In reverse, from the last picture in which a point is placed to the first of the clip; none are needed when all
+        are placed in the first.
+    places : Places
+        Seeds, and marks through which the track goes: see `sweep`.
+    fps, on_frame
+        As in `run`.
 
-def _start(tracker: Tracker[Any], frame: Frame, seeds: Sequence[Seed]) -> tuple[Any, Sighting]:
-    points = np.array([(seed.x_px, seed.y_px) for seed in seeds], dtype=np.float64)
-    try:
-        return tracker.start(frame.luma, points)
-    except SeedError as error:
-        names = {f"seed {k}": seed.name for k, seed in enumerate(seeds, start=1)}
-        raise SeedError(names.get(error.name, error.name), error.expected, error.got, error.hint) from None
-
-
-def _check(seeds: Sequence[Seed], fps: float | None) -> None:
-    names = [seed.name for seed in seeds]
-    if not names:
-        raise InputError("seeds", "at least one point", "none")
-    twice = [name for k, name in enumerate(names) if name in names[:k]]
-    if twice:
-        raise InputError("seeds", "every point's name once", f"{twice[0]!r} twice")
+    Raises
+    ------
+    SeedError, FrameRangeError, InputError
+        As `run`; FrameRangeError also when a place's frame is not among the pictures.
+    """
     if fps is not None and not (np.isfinite(fps) and fps > 0.0):
         raise InputError("fps", "a positive number of pictures per second", fps)
+    forwards = [_entry(glimpse) for glimpse in _shown(tracker, onwards, places, on_frame)]
+    if not forwards:
+        raise FrameRangeError("frames", "at least one picture to track in", "none")
+    backwards: list[Entry] = []
+    if not places.is_first_only:
+        placed = places.from_frame(forwards[0].frame)
+        backwards = [_entry(glimpse) for glimpse in _shown(tracker, back, placed, on_frame)]
+    places.check_frames({entry.frame for entry in chain(forwards, backwards)})
+    return assemble(tracker.settings, places.names, forwards, backwards, fps)
 
 
-def _assemble(
-    tracker: Tracker[Any], points: tuple[str, ...], index: object, time_s: FloatArray, seen: list[Sighting]
-) -> Track:
-    fields = ("xy_px", "sigma_px", "zncc", "iterations", "status", "gradient", "drift_px")
-    columns: dict[str, Any] = {name: np.stack([getattr(sighting, name) for sighting in seen]) for name in fields}
-    return Track(points, np.asarray(index), time_s, settings=dict(tracker.settings), **columns)
+def _shown(
+    tracker: Tracker[Any], frames: Iterable[Frame], places: Places, on_frame: OnFrame | None
+) -> Iterator[Glimpse]:
+    with prefetched(frames) as pictures:
+        for glimpse in sweep(tracker, pictures, places):
+            yield glimpse
+            if on_frame is not None:
+                on_frame(glimpse.frame, glimpse.sighting)
+
+
+def _entry(glimpse: Glimpse) -> Entry:
+    return Entry(glimpse.frame.index, glimpse.frame.time_s, glimpse.sighting, glimpse.reference)

@@ -6,7 +6,8 @@ nothing but scatter: 70 times its variance. Their size is found for each point a
 the stretches are those that make the differences likeliest (a hit is a difference like no other).
 
 Half of a match's variance comes from its picture, half from the reference, and the latter shifts all pictures
-alike, so that it does not scatter. The scatter therefore takes the place of the first half only, where it is larger.
+alike, so that it does not scatter. The scatter therefore takes the place of the first half only, where it is larger
+by more than so few pictures may have it by chance.
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ from vml_course.model.track import Track
 FOURTH = np.array([1.0, -4.0, 6.0, -4.0, 1.0])
 LEAST = 6  # differences of a stretch that can vouch for anything
 GAIN = 40.0  # of twice the log-likelihood, that makes two stretches of one (neighbouring differences are alike)
+EXCESS = 1.25  # a robust standard deviation of 12 differences, two coordinates each, is 0.2 sure
 SMALLEST_PX = 2e-4  # scatter: whole grey levels and stopping the iterations leave as much
 LEAST_SIGMA_PX = 1e-3  # a codec that copies a block leaves no residual at all
 
@@ -32,7 +34,7 @@ def vouched(track: Track) -> Track:
     for k in range(len(track.points)):
         scatter = scatter_px(track.xy_px[:, k])
         half = 0.5 * sigma[:, k] ** 2
-        sigma[:, k] = np.sqrt(half + np.fmax(half, scatter**2))
+        sigma[:, k] = np.sqrt(half + np.where(scatter > EXCESS * np.sqrt(half), scatter**2, half))
     return replace(track, sigma_px=np.maximum(sigma, LEAST_SIGMA_PX))
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 import importlib
 import pkgutil
 from collections.abc import Mapping
-from typing import Any, ClassVar, Protocol, TypeVar
+from typing import Any, ClassVar, Protocol, TypeGuard, TypeVar, runtime_checkable
 
 from vml_course.errors import UnknownNameError
 from vml_course.model.arrays import FloatArray
@@ -50,6 +50,23 @@ class Tracker(Protocol[State]):
     def step(self, state: State, luma: Luma) -> tuple[State, Sighting]:
         """Find the points in the next picture."""
         ...
+
+
+@runtime_checkable
+class Placeable(Protocol[State]):
+    """A tracker that can be told where its points are, and keeps its references; others start anew there."""
+
+    def place(self, state: State, luma: Luma, points_px: FloatArray) -> tuple[State, Sighting]:
+        """Go on from where the points, shape (p, 2), px, are said to be in this picture.
+
+        The sighting is these places, `manual`; its ZNCC is NaN where the reference is not seen.
+        """
+        ...
+
+
+def is_placeable(tracker: Tracker[Any]) -> TypeGuard[Placeable[Any]]:
+    """Whether a tracker keeps its references when it is told where the points are."""
+    return isinstance(tracker, Placeable)
 
 
 def tracker_names() -> tuple[str, ...]:

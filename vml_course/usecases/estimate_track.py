@@ -10,11 +10,11 @@ from statistics import median
 from time import perf_counter, process_time
 from typing import NamedTuple
 
-from vml_course.io.source import open_source
 from vml_course.model.frame import Frame
 from vml_course.track.run import run
 from vml_course.track.tracker import make_tracker
-from vml_course.usecases.track_clip import TrackRequest, check_request, clock, picture_count
+from vml_course.usecases.reel import open_reel
+from vml_course.usecases.track_clip import TrackRequest, check_request
 
 PILOT_FRAMES = 5
 DECODED_FRAMES = 24  # decoders hand out their first pictures in bursts, as many as they have threads
@@ -50,12 +50,13 @@ def estimate_track(request: TrackRequest) -> TrackEstimate:
     """
     check_request(request)
     started = perf_counter()
-    source = open_source(request.video)
-    total = picture_count(request, source)
-    frames = clock(request, source)[1]
+    reel = open_reel(request)
+    way = reel.way(request.seeds)
+    total = way.total
+    frames, longest = max((way.onwards, way.onwards_count), (way.back, way.back_count), key=lambda one: one[1])
     pilot = [next(frames)]
     opened_s = perf_counter() - started
-    decoded = _cost_each(lambda: pilot.extend(islice(frames, DECODED_FRAMES - 1)), min(total, DECODED_FRAMES) - 1)
+    decoded = _cost_each(lambda: pilot.extend(islice(frames, DECODED_FRAMES - 1)), min(longest, DECODED_FRAMES) - 1)
     shown = pilot[:PILOT_FRAMES]
     _steps(request, shown)
     tracked = _steps(request, shown)
@@ -72,9 +73,14 @@ def _cost_each(work: Callable[[], object], count: int) -> _Cost:
 
 
 def _steps(request: TrackRequest, pilot: list[Frame]) -> _Cost:
-    """Return the middle cost of a step: learning the blocks and the first search happen once in a clip."""
+    """Return the middle cost of a step: learning the blocks and the first search happen once in a clip.
+
+    Points that are placed elsewhere cost what those do that are placed in the first picture of the pilot.
+    """
     stamps: list[_Cost] = []
     tracker = make_tracker(request.method, **request.settings)
-    run(tracker, pilot, request.seeds, on_frame=lambda *_: stamps.append(_Cost(perf_counter(), process_time())))
+    here = [seed for seed in request.seeds if seed.frame in {None, pilot[0].index}]
+    run(tracker, pilot, here, on_frame=lambda *_: stamps.append(_Cost(perf_counter(), process_time())))
     steps = [(b.wall_s - a.wall_s, b.cpu_s - a.cpu_s) for a, b in pairwise(stamps)] or [(0.0, 0.0)]
-    return _Cost(median(wall for wall, _ in steps), median(cpu for _, cpu in steps))
+    more = len(request.seeds) / len(here)
+    return _Cost(more * median(wall for wall, _ in steps), more * median(cpu for _, cpu in steps))

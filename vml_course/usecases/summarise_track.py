@@ -2,19 +2,33 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
 from vml_course.model.arrays import FloatArray
+from vml_course.model.track import Status
 from vml_course.model.tracked import Tracked
 
 
 @dataclass(frozen=True, slots=True)
 class PointSummary:
-    """One point: found in how many of the frames, its worst correlation, its median sigma (NaN: never found).
+    """One point.
 
-    `renewed_at` are the frames in which its reference block was cut anew, `drift_px` what that may have added at most.
+    Attributes
+    ----------
+    name : str
+    found, frames : int
+        In how many of the frames it has a place.
+    worst_zncc, median_sigma_px : float
+        NaN: never found.
+    statuses : mapping of str to int
+        In how many frames it is `auto`, `manual`, `interp`, `virtual`, `lost`; those that occur.
+    references : tuple of int
+        Frames whose block it was compared with; more than one where its look changed or a mark did not fit.
+    drift_px : float
+        What blocks cut anew may have added, at most.
     """
 
     name: str
@@ -22,7 +36,8 @@ class PointSummary:
     frames: int
     worst_zncc: float
     median_sigma_px: float
-    renewed_at: tuple[int, ...]
+    statuses: Mapping[str, int]
+    references: tuple[int, ...]
     drift_px: float
 
 
@@ -36,7 +51,8 @@ def summarise(tracked: Tracked) -> list[PointSummary]:
             len(track.frame),
             float(np.min(seen, initial=np.inf)) if len(seen := _known(track.zncc[:, number])) else float("nan"),
             float(np.median(spread)) if len(spread := _known(track.sigma_px[:, number])) else float("nan"),
-            tuple(int(track.frame[row - 1]) for row in track.renewals(number)),
+            {one.name.lower(): count for one in Status if (count := int(np.sum(track.status[:, number] == one)))},
+            tuple(int(frame) for frame in np.unique(track.reference[:, number]) if frame >= 0),
             float(np.max(_known(track.drift_px[:, number]), initial=0.0)),
         )
         for number, name in enumerate(track.points)

@@ -3,29 +3,32 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from itertools import combinations
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 
-import numpy as np
-
 from vml_course.errors import InputError, UnknownNameError
-from vml_course.io.source import Source, open_source
+from vml_course.io.source import Source
 from vml_course.kinetics.calibrate import calibrate, relative_scale_sd
 from vml_course.kinetics.vectors import vector_series
 from vml_course.model.frame import Frame
 from vml_course.model.motion import Calibration, VectorSeries
 from vml_course.model.track import Seed, Sighting, Track
 from vml_course.model.tracked import Tracked
-from vml_course.track.run import run
+from vml_course.track.blocks import check_block_fits
+from vml_course.track.interpolate import WAYS, interpolated
+from vml_course.track.places import Places
+from vml_course.track.run import run_both_ways
 from vml_course.track.tracker import make_tracker
+from vml_course.track.virtual import VirtualPoint, check_virtual
 from vml_course.usecases.cut_clip import warnings_of
+from vml_course.usecases.find_shutter import find_shutter, noted, settled
+from vml_course.usecases.reel import Reel, Way, open_reel
+from vml_course.usecases.retrack import fill_before_marks, with_virtuals
+from vml_course.usecases.track_warnings import track_warnings
 
 __all__ = ["TrackRequest", "Tracked", "VectorRequest", "track_clip"]
 
-MERGED_PX = 1.5
-RATE = "the frames per second when recorded, above 0"
 Progress = Callable[[int, int], None]
 
 
@@ -47,7 +50,9 @@ class TrackRequest:
     video : Path
         A video, a folder of pictures, or a clip with its note: then frames and times are those of the source.
     seeds : tuple of Seed
-        Where the points are in the first picture.
+        Where the points are: in the first picture, or in the frame that a seed names (numbered as in the track).
+    marks : tuple of Seed
+        Places given by hand in further frames: the track goes through them.
     start, end, step : int
         Pictures of the file, `end` inclusive (None: the last).
     fps : float or None
@@ -60,7 +65,14 @@ class TrackRequest:
         Where the world's origin is seen; None: the centre of the bottom-left pixel.
     axis_angle_rad : float
         Angle of the x axis from the picture's horizontal, counter-clockwise.
+    virtuals : tuple of VirtualPoint
+        Points carried by tracked ones; without a frame they are seen where their first carrier is placed.
+    finds_shutter : bool
+        Whether the open share of the shutter is found in the clip (method `dic`); it takes the place of a setting.
+    fill : "linear", "quadratic" or None
+        How gaps are filled, of all points; None leaves them.
     vectors : tuple of VectorRequest
+        Between tracked and virtual points.
     method : str
         Name of a tracker; `settings` are its own, such as `block`.
     """
@@ -79,6 +91,10 @@ class TrackRequest:
     vectors: tuple[VectorRequest, ...] = ()
     method: str = "dic"
     settings: Mapping[str, float] = field(default_factory=dict)
+    marks: tuple[Seed, ...] = ()
+    virtuals: tuple[VirtualPoint, ...] = ()
+    fill: str | None = None
+    finds_shutter: bool = False
 
 
 def track_clip(request: TrackRequest, progress: Progress | None = None) -> Tracked:
@@ -92,18 +108,22 @@ def track_clip(request: TrackRequest, progress: Progress | None = None) -> Track
         When the request does not fit together, or a point cannot be followed from where it was placed.
     """
     check_request(request)
-    source = open_source(request.video)
-    fps, frames = clock(request, source)
-    calibration = _calibration(request, source)
-    total = picture_count(request, source)
-    track = run(
-        make_tracker(request.method, **request.settings),
-        frames,
-        request.seeds,
-        fps=None if source.is_variable_rate else fps,
-        on_frame=_counter(total, progress),
-    )
-    return _tracked(request, source, track, calibration, fps)
+    reel = open_reel(request)
+    calibration = _calibration(request, reel.source)
+    way = _way(request, reel)
+    found = find_shutter(request, reel) if request.finds_shutter else None
+    tracker = make_tracker(request.method, **settled(request, found))
+    places, on_frame = Places(request.seeds, request.marks), _counter(way.total, progress)
+    track = run_both_ways(tracker, way.onwards, way.back, places, fps=reel.steady_fps, on_frame=on_frame)
+    track = _filled(request, with_virtuals(request, fill_before_marks(reel, tracker, places, track)))
+    return _tracked(request, reel.source, noted(track, found), calibration, reel.fps)
+
+
+def _filled(request: TrackRequest, track: Track) -> Track:
+    if request.fill is not None:
+        for point in track.points:
+            track = interpolated(track, point, request.fill)
+    return track
 
 
 def check_request(request: TrackRequest) -> None:
@@ -113,8 +133,7 @@ def check_request(request: TrackRequest) -> None:
     ------
     UnknownNameError, InputError
     """
-    points = [seed.name for seed in request.seeds]
-    _check_names("point", points)
+    points = _check_points(request)
     _check_names("vector", [vector.name for vector in request.vectors])
     for vector in request.vectors:
         for end in (vector.tail, vector.head):
@@ -122,22 +141,48 @@ def check_request(request: TrackRequest) -> None:
                 raise UnknownNameError(f"vector {vector.name}", end, points)
         if vector.tail == vector.head:
             raise InputError(f"vector {vector.name}", "two different points", f"{vector.tail} twice")
+    if request.finds_shutter and request.method != "dic":
+        raise InputError("shutter", "method dic, which alone knows of motion blur", request.method)
     if not math.isfinite(request.axis_angle_rad):
         raise InputError("axis angle", "a number of degrees", request.axis_angle_rad)
     make_tracker(request.method, **request.settings)
 
 
+def _check_points(request: TrackRequest) -> list[str]:
+    tracked = [seed.name for seed in request.seeds]
+    points = tracked + [virtual.name for virtual in request.virtuals]
+    _check_names("point", points)
+    Places(request.seeds, request.marks)
+    for virtual in request.virtuals:
+        check_virtual(virtual, tracked)
+    if request.fill is not None and request.fill not in WAYS:
+        raise UnknownNameError("fill", request.fill, WAYS)
+    return points
+
+
 def check_video(request: TrackRequest) -> None:
-    """Refuse a video that cannot be opened, and a range or a scale that does not fit it.
+    """Refuse a video that cannot be opened, and a range, a scale or a point that does not fit it.
 
     Raises
     ------
-    FileMissingError, VideoError, FrameRangeError, InputError
+    FileMissingError, VideoError, FrameRangeError, InputError, SeedError
     """
     check_request(request)
-    source = open_source(request.video)
-    clock(request, source)
-    _calibration(request, source)
+    reel = open_reel(request)
+    _way(request, reel)
+    _calibration(request, reel.source)
+    block = int(make_tracker(request.method, **request.settings).settings["block"])
+    for seed in request.seeds:
+        check_block_fits(reel.source.info.shape, seed.name, (seed.x_px, seed.y_px), block)
+
+
+def _way(request: TrackRequest, reel: Reel) -> Way:
+    Places(request.seeds, request.marks).from_frame(reel.first_frame)  # refuses a mark on a seed
+    for kind, places in (("mark", request.marks), ("virtual", request.virtuals)):
+        for place in places:
+            if place.frame is not None:
+                reel.row(f"{kind} {place.name}", place.frame)
+    return reel.way(request.seeds)
 
 
 def _check_names(kind: str, names: Sequence[str]) -> None:
@@ -146,32 +191,6 @@ def _check_names(kind: str, names: Sequence[str]) -> None:
         raise InputError(kind, "each name once", f"{doubled[0]} twice")
     if not all(name.strip() for name in names):
         raise InputError(kind, "a name", "none")
-
-
-def clock(request: TrackRequest, source: Source) -> tuple[float, Iterator[Frame]]:
-    """Return frames per second when recorded, and the pictures with times on that clock.
-
-    A given rate stretches the time stamps: slow-motion clips are stored to play at 30 1/s.
-
-    Raises
-    ------
-    InputError
-        When neither the request nor the file says a rate.
-    """
-    fps = request.fps if request.fps is not None else float(source.rate)
-    if request.fps is None and not source.rate:
-        raise InputError("fps", RATE, "none", f"{source.name} does not tell it: say it with --fps.")
-    if not (np.isfinite(fps) and fps > 0):
-        raise InputError("fps", RATE, f"{fps:g}")
-    stretch = float(source.rate or 1) / fps  # without a rate the stamps are numbers
-    frames = source.frames(request.start, request.end, request.step)
-    return fps, (replace(frame, time_s=frame.time_s * stretch) for frame in frames)
-
-
-def picture_count(request: TrackRequest, source: Source) -> int:
-    """Return how many pictures the request asks for."""
-    end = source.info.frame_count - 1 if request.end is None else request.end
-    return len(range(request.start, end + 1, request.step))
 
 
 def _calibration(request: TrackRequest, source: Source) -> Calibration | None:
@@ -222,7 +241,7 @@ def _tracked(
         sha256=source.sha256,
         time_base=f"{stamps}, 0 at the first frame",
         scale_relative_sd=relative_scale_sd(calibration.stick_px) if calibration and calibration.stick_px else None,
-        warnings=(*warnings_of(source), *_lost_points(track), *_merged_points(track), *_renewed_points(track)),
+        warnings=(*warnings_of(source), *track_warnings(request, track)),
         path=source.path,
         first_picture=request.start,
         picture_step=request.step,
@@ -232,31 +251,3 @@ def _tracked(
 def _vector(vector: VectorRequest, track: Track, axes: Calibration) -> VectorSeries:
     tail, head = (axes.to_m(track.xy_px[:, track.point_index(end)]) for end in (vector.tail, vector.head))
     return vector_series(vector.name, vector.tail, vector.head, tail, head)
-
-
-def _lost_points(track: Track) -> Iterator[str]:
-    for number, point in enumerate(track.points):
-        lost = np.flatnonzero(track.is_lost[:, number])
-        if len(lost):
-            first = int(track.frame[lost[0]])
-            yield f"{point}: lost in {len(lost)} of {len(track.frame)} frames, first in frame {first}."
-
-
-def _merged_points(track: Track) -> Iterator[str]:
-    """Say when two points come to lie on one place: with marks that look alike, one track can jump to the other."""
-    for one, other in combinations(range(len(track.points)), 2):
-        apart = np.hypot(*(track.xy_px[:, one] - track.xy_px[:, other]).T)
-        merged = np.flatnonzero(apart < MERGED_PX)
-        if len(merged) and apart[0] > 5 * MERGED_PX:
-            first = int(track.frame[merged[0]])
-            yield f"{track.points[one]} and {track.points[other]}: on one place from frame {first} on; one has jumped."
-
-
-def _renewed_points(track: Track) -> Iterator[str]:
-    """Say where a point's block was cut anew, and what that may have added."""
-    for number, point in enumerate(track.points):
-        rows = track.renewals(number)
-        if len(rows):
-            frames = ", ".join(str(int(track.frame[row - 1])) for row in rows[:5]) + (" ..." if len(rows) > 5 else "")
-            drift = float(np.nanmax(track.drift_px[:, number]))
-            yield f"{point}: changed its look; its block was cut anew in frame {frames}; drift up to {drift:.2f} px."

@@ -11,26 +11,40 @@ from typing import Any
 from vml_course.errors import InputError
 from vml_course.model.reading import read_quantity
 from vml_course.model.track import Seed
+from vml_course.track.virtual import VirtualPoint
 from vml_course.usecases.track_clip import TrackRequest, VectorRequest
 
+_WHOLE = re.compile(r"[0-9]{1,9}")
 _NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)")
 
 
 def read_request(
-    video: Path, points: Sequence[str], vectors: Sequence[str], words: Mapping[str, str | None], **settled: Any
+    video: Path,
+    points: Sequence[str],
+    vectors: Sequence[str],
+    words: Mapping[str, str | None],
+    *,
+    marks: Sequence[str] = (),
+    virtuals: Sequence[str] = (),
+    **settled: Any,
 ) -> TrackRequest:
     """Return the request that the words say.
 
     Parameters
     ----------
     points : sequence of str
-        `NAME=X,Y` each.
+        `NAME=X,Y` or `NAME=X,Y@FRAME` each.
+    marks : sequence of str
+        `NAME=X,Y@FRAME` each.
+    virtuals : sequence of str
+        `NAME=POINT+POINT@X,Y` each.
     vectors : sequence of str
         `NAME=TAIL:HEAD` each.
     words : mapping
-        `fps`, `scale` (`X1,Y1,X2,Y2=LENGTH`) and `origin` (`X,Y`), None where nothing was typed.
+        `fps`, `scale` (`X1,Y1,X2,Y2=LENGTH`), `origin` (`X,Y`) and `shutter` (a share or `auto`), None where nothing
+        was typed.
     **settled
-        Fields of `TrackRequest` that are no words.
+        Fields of `TrackRequest` that are no words; a setting of None was not typed.
 
     Raises
     ------
@@ -42,13 +56,19 @@ def read_request(
     stick, length_m, length_text = read_scale(words.get("scale"))
     origin = words.get("origin")
     fps = words.get("fps")
+    shutter, finds_shutter = read_shutter(words.get("shutter"))
+    given = {**settled.pop("settings", {}), "shutter": shutter}
     return TrackRequest(
         video=video,
         seeds=tuple(map(read_point, points)),
+        marks=tuple(map(read_mark, marks)),
+        virtuals=tuple(map(read_virtual, virtuals)),
         vectors=tuple(map(read_vector, vectors)),
         stick_px=stick,
         length_m=length_m,
         length_text=length_text,
+        settings={name: value for name, value in given.items() if value is not None},
+        finds_shutter=finds_shutter,
         origin_px=_pair("--origin", origin) if origin is not None else None,
         fps=read_quantity(fps, "rate", "1/s", name="--fps").value if fps is not None else None,
         **settled,
@@ -56,16 +76,64 @@ def read_request(
 
 
 def read_point(text: str) -> Seed:
-    """Read `NAME=X,Y`.
+    """Read `NAME=X,Y`, with `@FRAME` when it is not the first one.
 
     >>> read_point("ball=640.5,361")
-    Seed(name='ball', x_px=640.5, y_px=361.0)
+    Seed(name='ball', x_px=640.5, y_px=361.0, frame=None)
+    >>> read_point("ball=640.5,361@40")
+    Seed(name='ball', x_px=640.5, y_px=361.0, frame=40)
     """
+    return _read_seed("-p", "a point as NAME=X,Y or NAME=X,Y@FRAME, such as ball=640.5,361", text)
+
+
+def read_mark(text: str) -> Seed:
+    """Read `NAME=X,Y@FRAME`: a place given by hand.
+
+    >>> read_mark("ball=640.5,361@57")
+    Seed(name='ball', x_px=640.5, y_px=361.0, frame=57)
+    """
+    expected = "a place by hand as NAME=X,Y@FRAME, such as ball=640.5,361@57"
+    mark = _read_seed("--mark", expected, text)
+    if mark.frame is None:
+        raise InputError("--mark", expected, repr(text))
+    return mark
+
+
+def _read_seed(option: str, expected: str, text: str) -> Seed:
     name, equals, place = text.rpartition("=")
-    if not equals or not name.strip():
-        raise InputError("-p", "a point as NAME=X,Y, such as ball=640.5,361", repr(text))
-    x, y = _pair(f"-p {name.strip()}", place)
-    return Seed(name.strip(), x, y)
+    place, at, frame = place.partition("@")
+    if not equals or not name.strip() or (at and not _WHOLE.fullmatch(frame.strip())):
+        raise InputError(option, expected, repr(text))
+    x, y = _pair(f"{option} {name.strip()}", place)
+    return Seed(name.strip(), x, y, int(frame) if at else None)
+
+
+def read_virtual(text: str) -> VirtualPoint:
+    """Read `NAME=POINT+POINT@X,Y`, with another `@FRAME` when it is not where the first of these points is placed.
+
+    >>> read_virtual("knee=shin+foot@420,200")
+    VirtualPoint(name='knee', of=('shin', 'foot'), x_px=420.0, y_px=200.0, frame=None)
+    """
+    name, equals, rest = text.partition("=")
+    of, at, place = rest.partition("@")
+    carriers = tuple(part.strip() for part in of.split("+"))
+    if not (equals and at and name.strip() and all(carriers)):
+        raise InputError("--virtual", "a point as NAME=POINT+POINT@X,Y, such as knee=shin+foot@420,200", repr(text))
+    seen = _read_seed("--virtual", "a place as X,Y or X,Y@FRAME, such as 420,200", f"{name}={place}")
+    return VirtualPoint(seen.name, carriers, seen.x_px, seen.y_px, seen.frame)
+
+
+def read_shutter(text: str | None) -> tuple[float | None, bool]:
+    """Read a share from 0 to 1, or `auto`: the share, and whether it is to be found in the clip.
+
+    >>> read_shutter("0.5"), read_shutter("auto"), read_shutter(None)
+    ((0.5, False), (None, True), (None, False))
+    """
+    if text is None or text.strip() == "auto":
+        return None, text is not None
+    if not _NUMBER.fullmatch(text.strip()):
+        raise InputError("--shutter", "a share of the frame interval from 0 to 1, or auto", repr(text))
+    return float(text), False
 
 
 def read_vector(text: str) -> VectorRequest:

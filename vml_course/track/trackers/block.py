@@ -130,7 +130,7 @@ class Block:
         followed = replace(point, xy_px=at, lost=0)
         if likeness < self.renew_below:
             followed = _renewed(followed, luma, sigma)
-        return followed, Found(at, sigma, first, 1, drift)
+        return followed, Found(at, sigma, first, 1)
 
 
 def slide(luma: Luma, template: Luma, middle: FloatArray, radius: float) -> FloatArray | None:

@@ -29,6 +29,7 @@ from vml_course.track.blocks import check_block_fits, check_texture, first_sight
 from vml_course.track.blur import Sharp
 from vml_course.track.ladder import follow
 from vml_course.track.learning import learn
+from vml_course.track.placing import manual_sighting, place
 from vml_course.track.records import UPRIGHT, Past, Reference, Rules
 from vml_course.track.renewal import composed, is_due, renewed
 
@@ -99,15 +100,7 @@ class Dic:
 
     def step(self, state: DicState, luma: Luma) -> tuple[DicState, Sighting]:
         """Find the points in the next picture."""
-        picture = read_only(luma)
-        rules = Rules(
-            self.search_radius,
-            self.zncc_lost,
-            self.zncc_far,
-            int(self.max_iterations),
-            int(self.give_up_frames),
-            self.shutter,
-        )
+        picture, rules = read_only(luma), self._rules()
         followed = [
             follow(reference, past, picture, rules)
             for reference, past in zip(state.references, state.pasts, strict=True)
@@ -132,9 +125,33 @@ class Dic:
         drift_px = found.sigma_px + reference.drift_px  # what changes the look goes on pulling the same way
         return replace(fresh, base=base, drift_px=drift_px), renewed(past)
 
+    def place(self, state: DicState, luma: Luma, points_px: FloatArray) -> tuple[DicState, Sighting]:
+        """Go on from where the points, shape (p, 2), px, are said to be in this picture; see `placing`."""
+        picture, rules = read_only(luma), self._rules()
+        placed = [
+            place(reference, past, picture, rules, point)
+            for reference, past, point in zip(state.references, state.pasts, points_px, strict=True)
+        ]
+        seen = tuple(
+            None if found is None else found._replace(pose=_as_first(reference, found))
+            for reference, (_, found) in zip(state.references, placed, strict=True)
+        )
+        sighting = manual_sighting(points_px, seen)
+        return DicState(state.references, tuple(past for past, _ in placed)), sighting
+
+    def _rules(self) -> Rules:
+        return Rules(
+            self.search_radius,
+            self.zncc_lost,
+            self.zncc_far,
+            int(self.max_iterations),
+            int(self.give_up_frames),
+            self.shutter,
+        )
+
     def _learn(self, luma: Luma, name: str, x: float, y: float) -> Reference:
         size = int(self.block)
-        check_block_fits(luma, name, (x, y), size)
+        check_block_fits(luma.shape, name, (x, y), size)
         plain = cut_patch(luma, (x, y), size)
         check_texture(plain.values, name, (x, y))
         noise = noise_grey(plain.values)
@@ -190,7 +207,11 @@ def _sighting(references: tuple[Reference, ...], matches: tuple[Match | None, ..
 
 def _row(reference: Reference, found: Match) -> tuple[float, ...]:
     drift = reference.drift_px
-    if not drift:
-        return (*found.pose.tolist(), found.sigma_px, found.zncc, 0.0)
-    linear = composed(found.pose[2:], reference.base)
-    return (*found.pose[:2].tolist(), *linear.tolist(), math.hypot(found.sigma_px, drift), found.zncc, drift)
+    return (*_as_first(reference, found).tolist(), math.hypot(found.sigma_px, drift), found.zncc, drift)
+
+
+def _as_first(reference: Reference, found: Match) -> FloatArray:
+    """Return a pose against the first block, whichever the reference is now."""
+    if not reference.drift_px:
+        return found.pose
+    return np.concatenate([found.pose[:2], composed(found.pose[2:], reference.base)])

@@ -127,7 +127,7 @@ class Flow:
         white, structured = shift_variance(before, now)
         # Noise does not add up: what is wrong in this picture is undone by the next. The rest goes on and on.
         drift = point.drift_px + float(np.sqrt(structured + 0.25 * missed_px**2)) + STEP_PX
-        found = Found(there, float(np.hypot(np.sqrt(white), drift)), zncc(point.first, now), 0, drift)
+        found = Found(there, float(np.hypot(np.sqrt(white), drift)), zncc(point.first, now), 0)
         return Flowing(point.first, point.offset, luma, there, (there - point.xy_px) / (point.lost + 1), drift), found
 
     def _moved(self, point: Flowing, luma: Luma) -> tuple[FloatArray, float] | None:
