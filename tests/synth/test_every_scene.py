@@ -13,6 +13,7 @@ from vml_course.io.truth import read_truth_json, write_truth_json
 from vml_course.model.camera import Camera
 from vml_course.model.quantity import quantities_of
 from vml_course.synth.honesty import angular_momenta, place
+from vml_course.synth.path import fine_path
 from vml_course.synth.render import draw_frames, scene_of
 from vml_course.synth.scene import scene_class, scene_names
 from vml_course.synth.simulate import simulate
@@ -188,6 +189,14 @@ def test_its_truth_is_read_back_and_draws_the_same_picture(name, tmp_path):
     assert back.declared == kind().declared()
     assert back.impact.unknowns == truth.impact.unknowns
     assert np.array_equal(next(draw_frames(back)).luma, next(draw_frames(truth)).luma)
+
+
+@every_scene
+def test_the_fine_path_that_an_open_shutter_sees_passes_through_the_frames(name):
+    kind = scene_class(name)
+    truth = simulate(kind(impact_phase=0.37), replace(kind.default_camera, fps=240.0), 0)
+    path = fine_path(scene_of(truth), 240.0)
+    assert np.abs(path.at(truth.time_s) - truth.pose).max() < FRAME_M
 
 
 @pytest.mark.parametrize(
