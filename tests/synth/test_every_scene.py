@@ -51,9 +51,9 @@ def simulated(scene, **how):
     """The truth of a scene, or nothing where it is refused, in one line that names the scene."""
     try:
         return simulate(scene, WIDE, 0, **how)
-    except SceneRefusedError as error:
+    except (SceneRefusedError, InputError) as error:
         refusal = str(error)
-    assert refusal.startswith(f"{scene.name}: expected an honest impact, got ")
+    assert refusal.startswith((f"{scene.name}: expected an honest impact, got ", "contact_ms: expected "))
     assert "\n" not in refusal
     assume(condition=False)
     return None
@@ -84,8 +84,8 @@ def test_momentum_is_kept_and_energy_never_created(name, data):
     scene = any_scene(data, name)
     truth = simulated(scene)
     law, impact = scene.law(), truth.impact
-    pose = law.motion(np.zeros(1)).pose[0]
-    before, after = (angular_momenta(law, pose, rate) for rate in (impact.before, impact.after))
+    met, parted = law.motion(np.array([0.0, law.duration_s])).pose
+    before, after = angular_momenta(law, met, impact.before), angular_momenta(law, parted, impact.after)
     assert after.sum() == pytest.approx(before.sum(), abs=REALISED * np.abs(before).sum())
     struck = impact.mass[impact.struck, 0] * (impact.struck_after_m_s - impact.struck_before_m_s)
     assert struck == pytest.approx(impact.impulse_xy_N_s, rel=REALISED, abs=REALISED * abs(impact.impulse_N_s))
