@@ -51,6 +51,9 @@ def test_help_lists_the_scenes_and_an_example(capsys):
         (["render", "soccer_kick", "--set", "e=2", "-o", "x"], "restitution (e): expected 0.05 to 1, got 2."),
         (["render", "soccer_kick", "--set", "q=2", "-o", "x"], "--set q: expected one of"),
         (["render", "soccer_kick", "--set", "px_per_m=900", "-o", "x"], "soccer_kick: expected an honest impact"),
+        (["render", "hammer_block", "--set", "m=-1", "-o", "x"], "block_mass_kg (m): expected 0.3 to 5 kg, got -1 kg."),
+        (["render", "bat_and_ball", "--set", "v=40", "-o", "x"], "ball outside the picture, px is"),
+        (["render", "two_pucks", "--set", "v=0.3", "--set", "normal_deg=60", "--set", "drift_m_s=1", "-o", "x"], "hit"),
     ],
 )
 def test_a_mistake_is_one_line_and_exit_code_2(arguments, words, capsys, tmp_path, monkeypatch):

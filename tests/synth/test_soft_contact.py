@@ -88,6 +88,7 @@ def test_a_finer_clock_moves_nothing():
             {"contact_ms": 12.0},
             r"contact_ms: expected at most 9.33 ms, in which the striker turns by 0.25 rad, got 12 ms",
         ),
+        ({"contact_ms": 1e-9}, r"contact_ms: expected 0 or at least 0.1 ms, got 1e-09 ms"),
         ({"contact_ms": 5.0, "restitution": 1.0}, r"restitution \(e\): expected at most 0.95 where the contact lasts"),
     ],
 )

@@ -23,6 +23,7 @@ from vml_course.synth.stage import Vector
 
 MOST_TURN_RAD = 0.25  # of the striker while it touches: beyond, the foot slides off the ball
 MOST_RESTITUTION = 0.95
+SHORTEST_S = 1e-4  # a shorter one looks like an instant, and is stiff
 
 
 @dataclass(frozen=True)
@@ -143,6 +144,8 @@ def soften(strike: PinnedStrike, contact_s: float) -> PinnedStrike | SoftStrike:
     """
     if not contact_s:
         return strike
+    if contact_s < SHORTEST_S:
+        raise InputError("contact_ms", f"0 or at least {1e3 * SHORTEST_S:g} ms", f"{1e3 * contact_s:g} ms")
     longest = MOST_TURN_RAD / abs(strike.omega_before_rad_s)
     if contact_s > longest:
         wanted = f"at most {1e3 * longest:.3g} ms, in which the striker turns by {MOST_TURN_RAD:g} rad"

@@ -18,12 +18,14 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
+from vml_course.errors import InputError
 from vml_course.model.arrays import FloatArray
 from vml_course.synth.closed_form import pair_mass
 from vml_course.synth.law import Movement
 from vml_course.synth.laws.pinned import PinnedStrike
 
 POWER = 1.5
+MOST_DAMPING = 50.0  # times that of a straight impact
 
 
 class Touch(NamedTuple):
@@ -58,7 +60,13 @@ class Touch(NamedTuple):
 
 @lru_cache(maxsize=64)
 def settle(strike: PinnedStrike, contact_s: float) -> Touch:
-    """Return the contact that realises the strike's restitution, by bisection on the damping."""
+    """Return the contact that realises the strike's restitution, by bisection on the damping.
+
+    Raises
+    ------
+    InputError
+        When the two slide off one another, so that there is none.
+    """
     closing = strike.arm_m * strike.omega_before_rad_s
     pair = pair_mass(strike.inertia_kg_m2, strike.other.mass_kg, strike.arm_m)
     first = straight_damping(strike.restitution)
@@ -72,6 +80,9 @@ def settle(strike: PinnedStrike, contact_s: float) -> Touch:
     while off(low) < 0 and low > 1e-9 / closing:
         low *= 0.25
     while off(high) > 0:
+        if high > MOST_DAMPING * first / closing:
+            got = f"no damping that gives e = {strike.restitution:g}"
+            raise InputError("contact_ms", "a contact in which foot and ball stay together", got, "Shorten it.")
         high *= 1.5
     damping = float(brentq(off, low, high, xtol=1e-14, rtol=1e-13))
     return _integrate(strike, contact_s, stiffness, damping)
