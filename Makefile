@@ -2,7 +2,7 @@
 BIN := .venv/bin
 SETUP_FILES := pyproject.toml constraints.txt tools/setup.sh
 
-.PHONY: help demo test check accuracy bench clean
+.PHONY: help demo test check accuracy bench gallery clean
 
 help:
 	@echo "make demo      simulate, hand out, measure and grade a sample course (3 students)"
@@ -10,6 +10,7 @@ help:
 	@echo "make check     lint, types and import contracts only (before every push)"
 	@echo "make accuracy  the long accuracy runs against known truth"
 	@echo "make bench     the benchmarks"
+	@echo "make gallery   draw every scene: docs/gallery.png and a GIF each"
 	@echo "make clean     remove the virtual environment and caches"
 
 .venv/.runtime: $(SETUP_FILES)
@@ -36,6 +37,9 @@ accuracy: .venv/.dev
 
 bench: .venv/.dev
 	@for script in benchmarks/*.py; do echo "== $$script"; $(BIN)/python $$script || exit 1; done
+
+gallery: .venv/.dev
+	$(BIN)/python tools/gallery.py docs
 
 clean:
 	rm -rf .venv .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache
