@@ -24,7 +24,8 @@ from vml_course.model.arrays import FloatArray
 from vml_course.synth.texture import Plane
 
 VARIANCE = 0.25  # of the spline, in samples
-TILE = 16
+TILE = 16  # rows
+WIDE = 64  # columns: long enough for what is worked out once a row
 BLOCK_BITS = 3
 f4 = np.float32
 
@@ -38,10 +39,13 @@ class Drawing(NamedTuple):
         Colours times opacity, and last the opacity; the outermost samples are empty.
     drawn : uint8 array, shape (h / 8 + 1, w / 8 + 1)
         In which blocks of 8 x 8 samples something is drawn, in them or one sample around.
+    flat : float32 array
+        The samples in one row.
     """
 
     samples: Plane
     drawn: NDArray[np.uint8]
+    flat: Plane
 
 
 def make_drawing(samples: Plane) -> Drawing:
@@ -52,7 +56,8 @@ def make_drawing(samples: Plane) -> Drawing:
     whole = np.zeros((rows, columns), np.uint8)
     whole[: wide.shape[0], : wide.shape[1]] = wide
     drawn = whole.reshape(rows // side, side, columns // side, side).max(axis=(1, 3))
-    return Drawing(np.ascontiguousarray(samples), np.ascontiguousarray(drawn))
+    samples = np.ascontiguousarray(samples)
+    return Drawing(samples, np.ascontiguousarray(drawn), samples.ravel())
 
 
 def lay_over(region: Plane, drawing: Drawing, matrix: FloatArray) -> None:
@@ -122,21 +127,21 @@ def _read(flat, start, steps, across, down):  # type: ignore[no-untyped-def] # n
 @njit(fastmath=True, cache=True, nogil=True, error_model="numpy")
 def _lay_tiles(region, drawing, matrix, colours):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN202
     for top in range(0, region.shape[0], TILE):
-        for left in range(0, region.shape[1], TILE):
+        for left in range(0, region.shape[1], WIDE):
             for y in range(top, min(top + TILE, region.shape[0])):
-                _lay_row(region[y, left : left + TILE], drawing, matrix, (left, y), colours)
+                _lay_row(region[y, left : left + WIDE], drawing, matrix, (left, y), colours)
 
 
 @njit(fastmath=True, cache=True, nogil=True, error_model="numpy")
 def _lay_row(row, drawing, matrix, first, colours):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN202
     u0, v0, low, high = _span(matrix, first, row.shape[0], drawing[0])
-    samples, drawn = drawing
-    flat, depth = samples.ravel(), uint64(len(colours) + 1)
+    samples, drawn, flat = drawing
+    depth = uint64(len(colours) + 1)
     steps = depth, uint64(samples.shape[1]) * depth
     for x in range(low, high):
         u, v = u0 + matrix[0, 0] * x, v0 + matrix[1, 0] * x
         j, i = int(u + 0.5), int(v + 0.5)
-        if not drawn[i >> BLOCK_BITS, j >> BLOCK_BITS]:
+        if not drawn[uint64(i >> BLOCK_BITS), uint64(j >> BLOCK_BITS)]:
             continue
         across, down = _weights(f4(u - j)), _weights(f4(v - i))
         start = uint64(i - 1) * steps[1] + uint64(j - 1) * depth
@@ -148,22 +153,22 @@ def _lay_row(row, drawing, matrix, first, colours):  # type: ignore[no-untyped-d
 @njit(fastmath=True, cache=True, nogil=True, error_model="numpy")
 def _add_tiles(drawing, matrices, total, colours):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN202
     for top in range(0, total.shape[0], TILE):
-        for left in range(0, total.shape[1], TILE):
+        for left in range(0, total.shape[1], WIDE):
             for k in range(len(matrices)):
                 for y in range(top, min(top + TILE, total.shape[0])):
-                    _add_row(drawing, matrices[k], (left, y), total[y, left : left + TILE], colours)
+                    _add_row(drawing, matrices[k], (left, y), total[y, left : left + WIDE], colours)
 
 
 @njit(fastmath=True, cache=True, nogil=True, error_model="numpy")
 def _add_row(drawing, matrix, first, row, colours):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN202
     u0, v0, low, high = _span(matrix, first, row.shape[0], drawing[0])
-    samples, drawn = drawing
-    flat, depth = samples.ravel(), uint64(len(colours))
+    samples, drawn, flat = drawing
+    depth = uint64(len(colours))
     steps = depth, uint64(samples.shape[1]) * depth
     for x in range(low, high):
         u, v = u0 + matrix[0, 0] * x, v0 + matrix[1, 0] * x
         j, i = int(u + 0.5), int(v + 0.5)
-        if not drawn[i >> BLOCK_BITS, j >> BLOCK_BITS]:
+        if not drawn[uint64(i >> BLOCK_BITS), uint64(j >> BLOCK_BITS)]:
             continue
         across, down = _weights(f4(u - j)), _weights(f4(v - i))
         start = uint64(i - 1) * steps[1] + uint64(j - 1) * depth
@@ -175,8 +180,8 @@ def _add_row(drawing, matrix, first, row, colours):  # type: ignore[no-untyped-d
 def _gather_tiles(drawing, ways, places, total, colours):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN202
     rows, columns = total.shape[:2]
     for top in range(0, rows, TILE):
-        for left in range(0, columns, TILE):
-            right = min(left + TILE, columns)
+        for left in range(0, columns, WIDE):
+            right = min(left + WIDE, columns)
             for k in range(len(ways)):
                 for y in range(top, min(top + TILE, rows)):
                     way = ways[k, y if ways.shape[1] > 1 else 0]
@@ -185,8 +190,8 @@ def _gather_tiles(drawing, ways, places, total, colours):  # type: ignore[no-unt
 
 @njit(fastmath=True, cache=True, nogil=True, error_model="numpy")
 def _gather_row(drawing, way, places, row, colours):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN202
-    samples, drawn = drawing
-    flat, depth = samples.ravel(), uint64(len(colours))
+    samples, drawn, flat = drawing
+    depth = uint64(len(colours))
     steps = depth, uint64(samples.shape[1]) * depth
     last_u, last_v = samples.shape[1] - 1.501, samples.shape[0] - 1.501
     for x in range(len(row)):
@@ -195,7 +200,7 @@ def _gather_row(drawing, way, places, row, colours):  # type: ignore[no-untyped-
         if not (0.501 <= u <= last_u and 0.501 <= v <= last_v):
             continue
         j, i = int(u + 0.5), int(v + 0.5)
-        if not drawn[i >> BLOCK_BITS, j >> BLOCK_BITS]:
+        if not drawn[uint64(i >> BLOCK_BITS), uint64(j >> BLOCK_BITS)]:
             continue
         across, down = _weights(f4(u - j)), _weights(f4(v - i))
         start = uint64(i - 1) * steps[1] + uint64(j - 1) * depth
