@@ -136,8 +136,7 @@ def test_each_row_is_that_of_a_picture_taken_all_at_once_at_the_rows_time(shutte
         planes = still.copy()
         expose(planes, [Swept(sprite, pose_px[:, k]) for k, sprite in enumerate(sprites)])
         difference = np.abs(planes.luma[row] - rolled[row])
-        # A flash rounds places to 1/32 sample, a smear does not.
-        assert difference.max() < (0.05 if shutter else 2.0)
+        assert difference.max() < 0.05
         assert np.abs(still.luma[row] - rolled[row]).max() > 20
 
 

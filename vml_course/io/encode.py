@@ -173,7 +173,9 @@ def _encode(container: OutputContainer, stream: VideoStream, pictures: Iterable[
 
 def _frame(picture: Picture, pixels: str) -> av.VideoFrame:
     height, width = picture.luma.shape
-    flat = np.concatenate([plane.ravel() for plane in (picture.luma, picture.blue, picture.red)])
-    frame = av.VideoFrame.from_ndarray(flat.reshape(height * 3 // 2, width), format=pixels)
+    frame = av.VideoFrame(width, height, pixels)
+    for plane, samples in zip(frame.planes, (picture.luma, picture.blue, picture.red), strict=True):
+        lines = np.frombuffer(memoryview(plane), dtype=np.uint8).reshape(-1, plane.line_size)  # wider than the picture
+        lines[: samples.shape[0], : samples.shape[1]] = samples
     frame.color_range, frame.colorspace = FULL_RANGE, BT601
     return frame

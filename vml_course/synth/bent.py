@@ -8,9 +8,9 @@ import numpy as np
 
 from vml_course.model.arrays import FloatArray
 from vml_course.synth.exposure import STILL_PX
-from vml_course.synth.gather import add_gathered
 from vml_course.synth.sight import Sight, in_halves
-from vml_course.synth.sprite import OVERSAMPLE, Box, Planes, Sprite, Veil, lay_veil
+from vml_course.synth.spline import add_gathered
+from vml_course.synth.sprite import Box, Planes, Sprite, Veil, empty_veil, lay_veil
 
 
 class Bent(NamedTuple):
@@ -62,36 +62,18 @@ class Bent(NamedTuple):
         return self._veil(box, slice(None))
 
     def _veil(self, box: Box, which: slice) -> Veil:
-        x0, y0, x1, y1 = box
-        rows = slice(y0, y1) if self.pose_px.shape[1] > 1 else slice(None)
+        rows = slice(box[1], box[3]) if self.pose_px.shape[1] > 1 else slice(None)
         pose, offset = self.pose_px[which, rows], self.offset_px[which][0]
         places = np.ascontiguousarray(self.sight.places_in(box, offset if offset.any() else None))
-        veil = Veil(
-            np.zeros((y1 - y0, x1 - x0, 2), np.float32), np.zeros(((y1 - y0) // 2, (x1 - x0) // 2, 3), np.float32)
-        )
         half = (pose[:, ::2] + pose[:, 1::2]) / 2 if pose.shape[1] > 1 else pose
-        add_gathered(self.sprite.luma, self._ways(pose), places, veil.luma)
-        add_gathered(self.sprite.chroma, _halved(self._ways(half)), in_halves(places), veil.chroma)
+        veil, (luma, chroma) = empty_veil(box), self.sprite.drawings
+        add_gathered(luma, self.sprite.ways(pose), places, veil.luma)
+        add_gathered(chroma, _halved(self.sprite.ways(half)), in_halves(places), veil.chroma)
         count = np.float32(len(pose))
         return Veil(veil.luma / count, veil.chroma / count)
 
-    def _ways(self, pose_px: FloatArray) -> FloatArray:
-        """Return the ways from the square picture to the drawing: shape (..., 3) -> (..., 2, 3)."""
-        x, y, angle = np.moveaxis(pose_px, -1, 0)
-        c, s = OVERSAMPLE * np.cos(angle), OVERSAMPLE * np.sin(angle)
-        column, row = self.sprite.origin
-        return np.stack(
-            [np.stack([c, -s, column - c * x + s * y], axis=-1), np.stack([s, c, row - s * x - c * y], axis=-1)],
-            axis=-2,
-        )
-
     def _box(self, pose_px: FloatArray, offset_px: FloatArray, shape: tuple[int, ...]) -> Box:
-        (rows, columns), (column, row) = self.sprite.luma.shape[:2], self.sprite.origin
-        corners = np.array([[x - column, y - row] for x in (0, columns) for y in (0, rows)]) / OVERSAMPLE
-        c, s = np.cos(pose_px[..., 2:]), np.sin(pose_px[..., 2:])
-        x = pose_px[..., :1] + c * corners[:, 0] + s * corners[:, 1]
-        y = pose_px[..., 1:2] - s * corners[:, 0] + c * corners[:, 1]
-        low, high = self.sight.box(np.array([x.min(), y.min()]), np.array([x.max(), y.max()]))
+        low, high = self.sight.box(*self.sprite.reach(pose_px))
         flat = offset_px.reshape(-1, 2)
         low, high = np.floor((low + flat.min(axis=0)) / 2) * 2, np.ceil((high + flat.max(axis=0)) / 2) * 2 + 2
         (x0, y0), (x1, y1) = np.clip([low, high], 0, [shape[1], shape[0]]).astype(int).tolist()

@@ -2,8 +2,8 @@
 
 The instants lie in the middles of equal parts of the exposure, close enough together that nothing moves by
 more than `STEP_PX` from one to the next. A body is averaged as a veil (colour times opacity, and opacity),
-which gives the same mean as averaging pictures as long as what lies behind it stands still. Only where the
-boxes of two bodies meet are whole pictures averaged.
+which gives the same mean as averaging pictures as long as all but one stand still. Only where the
+boxes of two moving bodies meet are whole pictures averaged.
 """
 
 from __future__ import annotations
@@ -62,7 +62,7 @@ class Swept(NamedTuple):
 
     def box(self, shape: tuple[int, ...]) -> Box:
         """Return the part of the picture that the body may reach."""
-        return hull([self.sprite.box((x, y), turn, shape) for x, y, turn in self.pose_px])
+        return self.sprite.box(self.pose_px, shape)
 
     def lay(self, on: Planes, instant: int, corner: tuple[int, int] = (0, 0)) -> Box:
         """Lay the body over a part of the picture that begins at `corner`; return what may have changed."""
@@ -98,7 +98,8 @@ def expose(on: Planes, bodies: Sequence[Body]) -> list[Box]:
     if all(body.instants == 1 for body in bodies):
         return [body.lay(on, 0) for body in bodies]
     boxes = [body.box(on.luma.shape) for body in bodies]
-    shared = [common for pair in combinations(boxes, 2) if not_empty(common := meet(*pair))]
+    moving = [box for body, box in zip(bodies, boxes, strict=True) if not body.is_still]
+    shared = [common for pair in combinations(moving, 2) if not_empty(common := meet(*pair))]
     behind = [on.part(box).copy() for box in shared]
     for body, box in zip(bodies, boxes, strict=True):
         _expose_one(on, body, box)
@@ -141,12 +142,6 @@ def meet(one: Box, other: Box) -> Box:
 def not_empty(box: Box) -> bool:
     """Tell whether a box holds a pixel."""
     return box[0] < box[2] and box[1] < box[3]
-
-
-def hull(boxes: Sequence[Box]) -> Box:
-    """Return the box around boxes."""
-    low, high = np.array(boxes)[:, :2].min(axis=0), np.array(boxes)[:, 2:].max(axis=0)
-    return int(low[0]), int(low[1]), int(high[0]), int(high[1])
 
 
 def _expose_one(on: Planes, body: Body, box: Box) -> None:
