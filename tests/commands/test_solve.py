@@ -60,7 +60,11 @@ def test_without_a_knee_the_reference_still_solves_and_says_why_lines_do_not(tmp
         ([], "given m: expected a mass, got nothing. Give it with -g m=0.5kg."),
         (["-g", "m=0.5"], "given m: expected a unit after the number (kg, g, lb), got none."),
         (["-g", "m"], "-g: expected symbol=number unit, such as m=0.5kg, got 'm'."),
-        ([*GIVEN, "--model", "loose"], "model: expected one of fixed-pivot, got 'loose'."),
+        (
+            [*GIVEN, "--model", "loose"],
+            "model: expected one of ballistic-pendulum, fixed-pivot, free-rod, hammer-block, spin-bounce, two-pucks, "
+            "got 'loose'.",
+        ),
         ([*GIVEN, "--window", "40"], "--window: expected a unit after the number (s, ms), got none."),
     ],
 )
