@@ -62,8 +62,10 @@ def test_without_a_knee_the_reference_still_solves_and_says_why_lines_do_not(tmp
         (["-g", "m"], "-g: expected symbol=number unit, such as m=0.5kg, got 'm'."),
         (
             [*GIVEN, "--model", "loose"],
-            "model: expected one of ballistic-pendulum, fixed-pivot, free-rod, hammer-block, spin-bounce, two-pucks, "
-            "got 'loose'.",
+            (
+                "model: expected one of ballistic-pendulum, fixed-pivot, free-rod, hammer-block, spin-bounce, "
+                "two-pucks, got 'loose'."
+            ),
         ),
         ([*GIVEN, "--window", "40"], "--window: expected a unit after the number (s, ms), got none."),
     ],

@@ -58,8 +58,9 @@ def test_the_swing_is_that_of_an_ode(start, rate, pull, drive, tilt):
             lambda _t, y: [y[1], drive - pull * np.cos(y[0] - tilt)], (0, sign * 0.5), [start, rate],
             t_eval=sign * time, rtol=1e-12, atol=1e-12, method="DOP853",
         )  # fmt: skip
-        numbers = (np.full((1, 1), value) for value in (start, rate, pull, drive, tilt))
-        found = swung(sign * time[None], *numbers)[0]
+        begin, there, other, *acting = (np.full((1, 1), value) for value in (start, rate, -rate, pull, drive, tilt))
+        rates = (there, other) if sign < 0 else (other, there)
+        found = swung(sign * time[None], np.full(7, sign > 0), begin, rates, tuple(acting))[0]
         np.testing.assert_allclose(found, ode.y[0], rtol=1e-8, atol=1e-8)
 
 

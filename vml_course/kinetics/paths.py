@@ -78,11 +78,7 @@ def swing_angle(u: Symbols, s: Any, is_after: Any, tilt_rad: Any) -> Any:
     if "p" not in u:
         rate = np.where(is_after, u["w2"], u["w1"])
         return u["theta"] + rate * s + 0.5 * q * s**2
-    tilt = none + tilt_rad
-    sides = [swung(s[:, side], u["theta"], u[w], p, q, tilt) for w, side in (("w1", ~is_after), ("w2", is_after))]
-    angle = np.empty(np.broadcast_shapes(s.shape, u["theta"].shape), sides[0].dtype)
-    angle[:, ~is_after], angle[:, is_after] = sides
-    return angle
+    return swung(s, is_after, u["theta"], (u["w1"], u["w2"]), (p, q, none + tilt_rad))
 
 
 def turning(centre: Path, across: Callable[[Symbols], Any], rates: Callable[[Symbols], tuple[Any, Any]]) -> Path:

@@ -24,35 +24,40 @@ PIECE_RAD = 0.5  # the longest piece of the motion that one series serves, in na
 Array = NDArray[Any]
 
 
-def swung(s: Array, start: Array, rate: Array, pull: Array, drive: Array, tilt: Array) -> Array:
-    """Return the angle at times `s` from the start, in both directions of time.
+def swung(s: Array, is_after: Array, start: Array, rates: tuple[Array, Array], acting: tuple[Array, ...]) -> Array:
+    """Return the angle about an impact that changes the rate at once, and not the angle.
 
     Parameters
     ----------
     s : array, shape (k, n)
-        Seconds since the start.
-    start, rate, pull, drive, tilt : array, shape (k, 1)
-        Angle (rad) and angular velocity (rad/s) at s = 0; p and q of the module (1/s^2); the horizontal (rad).
+        Seconds since the impact.
+    is_after : bool array, shape (n,)
+        On which side a frame lies. It is told, not read off `s`: the moment may be a little off while it is fitted.
+    start : array, shape (k, 1)
+        Angle at s = 0, rad.
+    rates : two arrays, shape (k, 1)
+        Angular velocity at s = 0 before and after, rad/s.
+    acting : three arrays, shape (k, 1)
+        p and q of the module, 1/s^2, and the direction of the horizontal, rad.
 
-    >>> at = np.array([[0.5]])
-    >>> one = np.ones((1, 1))
-    >>> swung(at, 0.3 * one, 2 * one, 0 * one, 4 * one, 0 * one)  # no gravity: 0.3 + 2 s + 2 s^2
-    array([[1.8]])
+    >>> one, time = np.ones((1, 1)), np.array([[-0.5, 0.5]])
+    >>> swung(time, time[0] > 0, 0.3 * one, (one, 2 * one), (0 * one, 4 * one, 0 * one))  # the drive alone: + 2 s^2
+    array([[0.3, 1.8]])
     """
-    fastest = np.abs(rate).max() + np.sqrt(np.abs(pull).max() + np.abs(drive).max())
-    natural = max(float(fastest), 1e-9)
-    length = PIECE_RAD / natural
-    result = np.empty(np.broadcast_shapes(s.shape, start.shape), np.result_type(s, start, rate, pull, drive, tilt))
-    for sign in (1.0, -1.0):
-        side = sign * s.real[0] >= 0 if sign > 0 else s.real[0] < 0
-        piece = np.floor(np.abs(s.real[0]) / length).astype(int)
-        angle, speed = start - tilt, rate
-        for number in range(int(piece[side].max(initial=-1)) + 1):
-            series = _series(angle, speed, pull, drive)
-            here = side & (piece == number)
-            result[:, here] = _sum(series, s[:, here] - sign * number * length) + tilt
-            step = np.full((1, 1), sign * length)
-            angle, speed = _sum(series, step), _sum(series[1:] * np.arange(1, TERMS)[:, None, None], step)
+    pull, drive, tilt = acting
+    fastest = max(np.abs(rate).max() for rate in rates) + np.sqrt(np.abs(pull).max() + np.abs(drive).max())
+    step = PIECE_RAD / max(float(fastest), 1e-9) * np.array([-1.0, 1.0])
+    piece = np.floor(np.abs(s.real[0]) / step[1]).astype(int)
+    # Both sides at once: the first axis of angle and rate is the side.
+    angle, rate = np.broadcast_arrays((start - tilt)[None], np.stack(rates))
+    result = np.empty((max(len(s), angle.shape[1]), s.shape[1]), np.result_type(s, angle, rate, *acting))
+    for number in range(int(piece.max(initial=0)) + 1):
+        series = _series(angle, rate, pull, drive)
+        for side in (0, 1):
+            here = (is_after == side) & (piece == number)
+            result[:, here] = _sum(series[:, side], s[:, here] - number * step[side]) + tilt
+        ahead = step[:, None, None]
+        angle, rate = _sum(series, ahead), _sum(series[1:] * np.arange(1, TERMS)[:, None, None, None], ahead)
     return result
 
 
