@@ -3,8 +3,8 @@
 python benchmarks/kinetics.py [--variants N] [--trials N] [--clips FOLDER]
 
 Variants are drawn as an assignment draws them (mass, length, e, share of the rate that is lost, speed, gravity; every
-other one with a tilted normal), filmed at 480 1/s with 500 px/m, H.264 crf 18 and noise 2, and tracked by `dic` from true seeds. Tracks are
-kept in the folder, so that a rerun only solves. Errors are in percent of the truth.
+other one with a tilted normal), filmed at 480 1/s with 500 px/m, H.264 crf 18 and noise 2, and tracked by `dic` from
+true seeds. Tracks are kept in the folder, so that a rerun only solves. Errors are in percent of the truth.
 """
 
 from __future__ import annotations
@@ -167,7 +167,7 @@ NOISES = {"white 0.1 px": white, "AR(1), 0.5": alike(0.5), "AR(1), 0.8": alike(0
 
 
 def print_coverage(trials):
-    """Print how often nominal 95 % intervals hold the truth: by noise alone, and with the floor of real measurements."""
+    """Print how often nominal 95 % intervals hold the truth: by noise alone, and with the floor."""
     kick = scene_class("soccer_kick")
     print(f"\n### Nominal 95 % intervals, {trials} trials each, the paper's kick\n")
     print("| noise | method | e: noise alone | with floor | I: noise alone (log) | with floor | e sd | I sd |")

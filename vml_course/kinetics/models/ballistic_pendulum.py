@@ -96,7 +96,7 @@ class BallisticPendulum:
         check_given(given, self.given)
         if options.gravity_m_s2 <= 0:
             raise OutOfRangeError("gravity", 0.1, 30.0, "m/s^2", options.gravity_m_s2)
-        is_seen = np.isfinite(motion.of(options.striker)).all(axis=1)
+        is_seen = np.asarray(np.isfinite(motion.of(options.striker)).all(axis=1))
         window = options.window_s, max(options.window_s, RISE_S)
         frames = frames_about(motion, options.striker, is_seen, (None, None), window)
         known = {**{symbol: given[symbol] for symbol in self.given}, "g": options.gravity_m_s2}
