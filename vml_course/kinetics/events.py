@@ -49,6 +49,17 @@ class Impact:
         return np.asarray(self.after.slope - self.before.slope)
 
 
+def contact_interval(impact: Impact, time_s: FloatArray) -> tuple[float, float]:
+    """Return start and end of the contact, seconds, as `differentiate` takes it; equal when no frame shows contact.
+
+    A contact that frames show began after the last clear frame before and ended before the first clear one after, so
+    the interval is longer than the contact by up to a frame on either side.
+    """
+    if impact.first_after - impact.last_before < 2:
+        return impact.time_s, impact.time_s
+    return float(time_s[impact.last_before]), float(time_s[impact.first_after])
+
+
 def find_impact(
     time_s: FloatArray,
     xy_m: FloatArray,

@@ -2,44 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
-import numpy as np
-
 from vml_course.errors import LengthMismatchError, UpsideDownError
 from vml_course.kinetics.arc import fit_arc
+from vml_course.kinetics.calibration_checks import Fall, apparent_gravity, gravity_cause
 from vml_course.kinetics.clear_frames import Seen
 from vml_course.kinetics.impact_model import ImpactOptions
-from vml_course.model.arrays import FloatArray
 
 LENGTH_SHARE = 0.02
 DOUBT_SD = 3.0
 RADIUS_NOTE = 0.003
-
-
-@dataclass(frozen=True, slots=True)
-class Fall:
-    """Downward acceleration of the free ball with its standard deviation, m/s^2 (NaN: too few frames)."""
-
-    value: float
-    sd: float
-
-
-def apparent_gravity(ball: Seen, up_angle_rad: float) -> Fall:
-    """Measure the free ball's downward acceleration after the impact.
-
-    A wrong frame rate shows as the square of its factor, a wrong scale as its factor.
-    """
-    t, xy = ball.time_s[ball.is_after], ball.xy_m[ball.is_after]
-    if len(t) < 6:
-        return Fall(float("nan"), float("inf"))
-    down = -(xy @ np.array([np.cos(up_angle_rad), np.sin(up_angle_rad)]))
-    middle = float(t.mean())
-    basis = np.stack([np.ones_like(t), t - middle, 0.5 * (t - middle) ** 2], axis=1)
-    weights = np.linalg.pinv(basis)
-    rest = down - basis @ (weights @ down)
-    scatter = float(np.sqrt(rest @ rest / (len(t) - 3)))
-    return Fall(float((weights @ down)[2]), scatter * float(np.sqrt(weights[2] @ weights[2])) + 1e-9)
 
 
 def refuse_misfits(foot: Seen, struck: Seen, length_m: float, options: ImpactOptions) -> None:
@@ -78,16 +49,6 @@ def _could_fall(fall: Fall, gravity_m_s2: float) -> bool:
     return fall.value + 5.0 * fall.sd > 0.25 * gravity_m_s2
 
 
-def knee_offset(knee_m: FloatArray, pivot_m: FloatArray, pivot_sd_m: float) -> tuple[float, float] | None:
-    """Return the distance of the knee mark from the fitted pivot with its sd, metres; None without a mark."""
-    seen = knee_m[np.isfinite(knee_m).all(axis=1)]
-    if len(seen) == 0:
-        return None
-    middle = np.median(seen, axis=0)
-    scatter = float(np.sqrt(np.mean((seen - middle) ** 2)))
-    return float(np.hypot(*(middle - pivot_m))), float(np.hypot(pivot_sd_m, scatter))
-
-
 def pinned_notes(figures: dict[str, float], options: ImpactOptions) -> list[str]:
     """Return what a person should know of a pivoted body's solution, beside the common notes."""
     told = {
@@ -120,7 +81,8 @@ def _gravity_is_off(figures: dict[str, float], options: ImpactOptions) -> bool:
 
 def _gravity_note(figures: dict[str, float], options: ImpactOptions) -> str:
     value, sd = figures["apparent_g_m_s2"], figures["apparent_g_sd_m_s2"]
+    cause = gravity_cause(value, options.gravity_m_s2)
     return (
         f"{options.struck} falls with {value:.2f} ± {sd:.2f} m/s^2 instead of {options.gravity_m_s2:g}: "
-        "check frame rate and scale, or it is not in free flight"
+        f"check frame rate and scale{cause}, or it is not in free flight"
     )

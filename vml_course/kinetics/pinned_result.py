@@ -8,10 +8,11 @@ from typing import Any
 
 import numpy as np
 
+from vml_course.kinetics.calibration_checks import apparent_gravity, knee_offset
 from vml_course.kinetics.joint import Fit, Problem, fit
 from vml_course.kinetics.paths import Symbols, direction
 from vml_course.kinetics.pinned import inertia_about_pivot, restitution
-from vml_course.kinetics.pinned_checks import apparent_gravity, knee_offset, pinned_notes
+from vml_course.kinetics.pinned_checks import pinned_notes
 from vml_course.kinetics.solved import Solving, joint_solution
 from vml_course.model.solution import ImpactSolution
 
