@@ -33,7 +33,7 @@ def test_complex_steps_are_the_derivatives_of_the_residuals(name, shift):
     start, path = PATHS[name]
     start = {key: value * (1 + by) for (key, value), by in zip(start.items(), shift, strict=False)} | {"t": 0.0013}
     seen = Seen(TIME, np.random.default_rng(10).normal(size=(12, 2)), np.full(12, 0.1), TIME > 0.004)
-    problem = Problem(start, {"L": 0.6}, (Watched(seen, path),), (Held(lambda u: u["t"] - 0.01 * u["L"], 0.5),))
+    problem = Problem(start, {"L": 0.6}, (Watched("ball", seen, path),), (Held(lambda u: u["t"] - 0.01 * u["L"], 0.5),))
     x = np.array(list(start.values()))
     found, row = slopes(problem, x), problem.rows(x)
     for j in range(row.shape[1]):
@@ -81,7 +81,9 @@ def test_given_numbers_and_the_scale_move_the_unknowns_as_a_new_fit_says():
     def found(length, scale=1.0):
         held = (Held(lambda u: u["b2x"] - u["L"], 0.5), Held(lambda u: u["t"], 1e-3))
         where = Seen(seen.time_s, scale * seen.xy_m, seen.sigma_m, seen.is_after)
-        return fit(Problem(start, {"L": length}, (Watched(where, flying("b", np.zeros(2), np.zeros(2))),), held))
+        return fit(
+            Problem(start, {"L": length}, (Watched("ball", where, flying("b", np.zeros(2), np.zeros(2))),), held)
+        )
 
     one = found(3.0)  # what is left is of second order in the change
     np.testing.assert_allclose(one.by_known[:, 0] * 1e-3, found(3.001).x - one.x, atol=1e-8)

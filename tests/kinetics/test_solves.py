@@ -9,6 +9,7 @@ from scipy.integrate import solve_ivp
 
 from vml_course.errors import LengthMismatchError, NoImpactError, TooFewFramesError, UpsideDownError
 from vml_course.kinetics.impact_model import ImpactOptions
+from vml_course.kinetics.lines import solve_by_lines
 from vml_course.kinetics.models import impact_model
 from vml_course.model.motion import Motion
 
@@ -78,6 +79,21 @@ def test_a_door_at_rest_gives_e_and_i_from_where_the_ball_meets_it(side):
     assert found.value("a") == 0.6
     assert math.isnan(found.figures["r"])
     assert found.notes == ()
+
+
+def test_a_student_finds_the_door_by_lines_too():
+    found = solve_by_lines(door()[0], {"m": 0.4, "L": 0.9, "a": 0.6}, DOOR)
+    assert found.value("e") == pytest.approx(0.6, rel=1e-3)
+    assert found.value("I") == pytest.approx(1.5, rel=1e-3)
+
+
+def test_a_solution_holds_where_the_model_puts_the_points():
+    motion = door()[0]
+    fitted = impact_model("fixed-pivot").solve(motion, {"m": 0.4, "L": 0.9, "a": 0.6}, DOOR).fitted
+    assert fitted.points == ("edge", "ball")
+    seen = np.isfinite(fitted.of("edge")).all(axis=1)
+    assert 90 <= seen.sum() < FRAMES
+    np.testing.assert_allclose(fitted.of("edge")[seen], motion.of("edge")[seen], atol=1e-8)
 
 
 def test_without_the_arm_a_door_would_be_taken_to_be_hit_at_its_edge():

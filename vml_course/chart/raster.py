@@ -35,6 +35,7 @@ def spelled(words: str) -> str:
     """
     for letter, name in SPELLED.items():
         words = words.replace(letter, name)
+    words = words.replace("( ", "(")
     return words.encode("ascii", "replace").decode()
 
 

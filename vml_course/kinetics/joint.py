@@ -25,8 +25,9 @@ Outcome = Callable[[Symbols], Mapping[str, Any]]
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Watched:
-    """Clear frames of one point, and where the model says that it is."""
+    """Name and clear frames of one point, and where the model says that it is."""
 
+    name: str
     seen: Seen
     path: Path
 

@@ -58,7 +58,10 @@ def pinned_problem(  # noqa: PLR0913, PLR0917 - two bodies, their numbers, and w
         start["q"] = 0.0
     if options.at_rest:
         known |= {name: 0.0 * start.pop(name) for name in ("b1x", "b1y")}
-    watched = Watched(foot, swinging(options.up_angle_rad - np.pi / 2)), Watched(struck, struck_path)
+    watched = (
+        Watched(options.striker, foot, swinging(options.up_angle_rad - np.pi / 2)),
+        Watched(options.struck, struck, struck_path),
+    )
     length = given["L"]
     return Problem(start, known, watched, (Held(lambda u: u["r"] - u["L"], LENGTH_PRIOR * length),))
 

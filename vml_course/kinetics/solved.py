@@ -99,7 +99,21 @@ def joint_solution(
         notes=(*common_notes(every, estimates), *notes),
         figures={name: float(value) for name, value in every.items()},
         covariance=covariance,
+        fitted=fitted_motion(fit, solving),
     )
+
+
+def fitted_motion(fit: Fit, solving: Solving) -> Motion:
+    """Return where the model puts every fitted point in the motion's frames, NaN where a frame was not fitted."""
+    motion, names = solving.motion, tuple(point.name for point in fit.problem.watched)
+    xy, start = np.full((len(motion.time_s), len(names), 2), np.nan), 0
+    for k, point in enumerate(fit.problem.watched):
+        seen, count = point.seen, len(point.seen.time_s)
+        frames = np.searchsorted(motion.time_s, seen.time_s + solving.frames.impact.time_s - 1e-9)
+        rest = fit.residual[start : start + 2 * count].reshape(2, count)
+        xy[frames, k] = seen.xy_m + (rest * seen.sigma_m).T
+        start += 2 * count
+    return Motion(names, motion.frame, motion.time_s, xy, np.full(xy.shape[:2], np.nan))
 
 
 def _correlation(derived: Derived, first: str, second: str) -> float:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from vml_course.model.arrays import Axes, FloatArray, set_frozen
+from vml_course.model.motion import Motion
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,6 +74,8 @@ class ImpactSolution:
         Diagnostics: residual_rms_m, residual_lag1, knee_offset_m, r, frames_before, frames_after ...
     covariance : float array, shape (k, k)
         Of all estimates in their order, in SI units; shape (0, 0) when the method gives none.
+    fitted : Motion or None
+        Where the model puts the points in the frames that were fitted, NaN elsewhere.
     """
 
     model: str
@@ -83,6 +86,7 @@ class ImpactSolution:
     notes: tuple[str, ...] = ()
     figures: Mapping[str, float] = field(default_factory=dict)
     covariance: FloatArray = field(default_factory=lambda: np.zeros((0, 0)), compare=False)
+    fitted: Motion | None = field(default=None, compare=False)
 
     def __post_init__(self) -> None:
         set_frozen(self, covariance=Axes().freeze("covariance", self.covariance, "k", "k"))

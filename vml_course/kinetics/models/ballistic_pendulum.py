@@ -123,7 +123,10 @@ def _problem(motion: Motion, known: Mapping[str, float], options: ImpactOptions,
     start |= dict(zip(names, map(float, [*line.position(0.0), *line.slope]), strict=True))
     pellet_path = flying("b", gravity, np.zeros(2))
     stays = {"b2x": np.zeros((1, 1)), "b2y": np.zeros((1, 1))}
-    watched = Watched(bob, _bob_path), Watched(pellet, lambda u, s, after: pellet_path({**u, **stays}, s, after))
+    watched = (
+        Watched(options.striker, bob, _bob_path),
+        Watched(options.struck, pellet, lambda u, s, after: pellet_path({**u, **stays}, s, after)),
+    )
     return Problem(start, known, watched)
 
 
@@ -162,7 +165,7 @@ def _tied_problem(free: Problem, start: Mapping[str, float]) -> Problem:
     def tied(path: Path) -> Path:
         return lambda u, s, is_after: path(_tied(u), s, is_after)
 
-    return Problem(kept, known, tuple(Watched(point.seen, tied(point.path)) for point in free.watched))
+    return Problem(kept, known, tuple(Watched(point.name, point.seen, tied(point.path)) for point in free.watched))
 
 
 def _two_roads(u: Symbols) -> dict[str, Any]:

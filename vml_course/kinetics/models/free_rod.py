@@ -115,7 +115,11 @@ def _problem(motion: Motion, known: Mapping[str, float], options: ImpactOptions,
     def mark(share: float) -> Path:
         return turning(centre, lambda u: (share - u["lam"]) * u["ell"], lambda u: (u["w1"], u["w2"]))
 
-    watched = Watched(tail, mark(0.0)), Watched(tip, mark(1.0)), Watched(ball, flying("b", still, still))
+    watched = (
+        Watched(options.striker, tail, mark(0.0)),
+        Watched(options.striker_mark, tip, mark(1.0)),
+        Watched(options.struck, ball, flying("b", still, still)),
+    )
     return Problem(start, known, watched, (Held(lambda u: u["lam"] - 0.5, MIDDLE_SD),))
 
 

@@ -108,7 +108,11 @@ class SpinBounce:
         centre = flying("b", gravity, gravity)
         mark = turning(centre, lambda u: u["rho"], lambda u: (u["w1"], _spin_after(u)))
         found = fit(
-            Problem({"t": 0.0, **start, **body_start("b", ball)}, known, (Watched(ball, centre), Watched(rim, mark)))
+            Problem(
+                {"t": 0.0, **start, **body_start("b", ball)},
+                known,
+                (Watched(options.struck, ball, centre), Watched(options.striker, rim, mark)),
+            )
         )
         u = {name: float(value[0, 0]) for name, value in found.problem.symbols(found.problem.rows(found.x)).items()}
         _refuse_fast_spin(u, motion)

@@ -98,7 +98,10 @@ class TwoPucks:
         g, none = np.array(options.gravity_xy_m_s2), np.zeros(2)
         gravity = g if options.flight == "always" else none, none if options.flight == "never" else g
         paths = flying("a", *gravity), flying("b", *gravity)
-        watched = Watched(first, paths[0]), Watched(second, lambda u, s, is_after: paths[1](_tied(u), s, is_after))
+        watched = (
+            Watched(options.striker, first, paths[0]),
+            Watched(options.struck, second, lambda u, s, is_after: paths[1](_tied(u), s, is_after)),
+        )
         found = fit(Problem(start, known, watched))
         solving = Solving(self.name, motion, given, options, frames)
         off_deg = _normal_off_deg(found.problem.symbols(found.problem.rows(found.x)))
