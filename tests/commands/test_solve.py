@@ -153,3 +153,13 @@ def test_another_model_shows_its_own_symbols(tmp_path, capsys):
     assert found["e"]["value"] == pytest.approx(0.6, rel=1e-6)
     assert found["M"]["value"] == pytest.approx(0.2, rel=1e-6)
     assert "lines" not in found
+
+
+def test_a_picture_that_is_shown_twice_is_told(tmp_path, capsys):
+    table = _kick_csv(tmp_path)
+    rows = table.read_text("utf-8").splitlines()
+    old, new = rows[11].split(","), rows[12].split(",")
+    rows[12] = ",".join([*new[:2], *old[2:]])
+    table.write_text("\n".join(rows) + "\n", encoding="utf-8")
+    cli.run(["solve", str(table), *GIVEN, "--gravity", "0 m/s^2"])
+    assert "note: frames 411 show the picture before once more" in capsys.readouterr().out

@@ -22,10 +22,11 @@ from vml_course.model.rounding import with_uncertainty
 from vml_course.model.solution import ImpactSolution
 
 WIDTH, LEFT, MIDDLE, RIGHT = 980.0, 72.0, 86.0, 18.0
-TOP, MAIN, GAP, REST, BOTTOM = 92.0, 300.0, 22.0, 96.0, 50.0
+TOP, MAIN, GAP, REST, BOTTOM = 116.0, 300.0, 22.0, 96.0, 50.0
 PANEL = (WIDTH - LEFT - MIDDLE - RIGHT) / 2
 HEIGHT = TOP + MAIN + GAP + REST + BOTTOM
 LINES_S = 0.020
+KEY_Y = 76.0
 SHOWN = 1.25  # times the fitted span is shown
 PLAIN = {"e": "e", "I": "I", "M": "M", "mu": "μ", "v1": "v₁"}
 
@@ -83,7 +84,8 @@ def _blow(motion: Motion, solution: ImpactSolution, struck: str, time_ms: FloatA
     seen = np.isfinite(xy).all(axis=1)
     sides = [seen & side for side in (time_ms <= 0, time_ms > 0)]
     slopes = [fit_line(time_ms[side], xy[side]).slope if side.sum() > 1 else np.zeros(2) for side in sides]
-    jump = slopes[1] - slopes[0]
+    # What is seen before only (a pellet that is stuck) struck along its path.
+    jump = slopes[1] - slopes[0] if sides[1].any() else slopes[0]
     return np.asarray(jump / max(float(np.hypot(*jump)), 1e-12))
 
 
@@ -192,14 +194,14 @@ def _student_lines(track: Track, x: Scale, y: Scale, ticks: tuple[float, ...]) -
 
 
 def _legend() -> list[Shape]:
-    """Return the key, in one row at the top right."""
+    """Return the key, in one row beneath the titles."""
     entries = ("measured", INK), ("fit before", BLUE), ("fit after", ORANGE), ("lines, 20 ms", GREEN), ("impact", RED)
     widths = [26 + 7.0 * len(words) + 16 for words, _ in entries]
-    starts = itertools.accumulate([WIDTH - RIGHT - sum(widths), *widths[:-1]])
+    starts = itertools.accumulate([LEFT, *widths[:-1]])
     shapes: list[Shape] = []
     for (words, colour), left in zip(entries, starts, strict=True):
         dash = {GREEN: (7.0, 4.0), RED: (5.0, 4.0)}.get(colour)
-        key: Shape = Line(((left, 48), (left + 20, 48)), colour, 2.2, dash)
-        shapes.append(Dot((left + 10, 48), 2.6, "none", INK) if colour == INK else key)
-        shapes.append(Words((left + 26, 52), words, 12, INK))
+        key: Shape = Line(((left, KEY_Y), (left + 20, KEY_Y)), colour, 2.2, dash)
+        shapes.append(Dot((left + 10, KEY_Y), 2.6, "none", INK) if colour == INK else key)
+        shapes.append(Words((left + 26, KEY_Y + 4), words, 12, INK))
     return shapes

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from vml_course.errors import InputError, TooFewFramesError, UnknownNameError
 from vml_course.io.tables import read_motion
+from vml_course.kinetics.frame_faults import find_frame_faults
 from vml_course.kinetics.impact_model import SYMBOLS, ImpactOptions
 from vml_course.kinetics.lines import MODELS as BY_LINES
 from vml_course.kinetics.lines import solve_by_lines
@@ -100,7 +101,7 @@ def solve_motion(
         hint = "Use --method joint."
         raise InputError("method", f"joint, lines being for {' and '.join(BY_LINES)}", "lines", hint)
     joint = solver.solve(motion, given, options) if method != "lines" else None
-    lines, notes = None, joint.notes if joint else ()
+    lines, notes = None, (*(joint.notes if joint else ()), *find_frame_faults(motion).notes)
     if method == "lines":
         lines = solve_by_lines(motion, given, options)
     elif method == "both" and model in BY_LINES:
