@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from vml_course.chart.axes import Scale, label, nice_ticks
 from vml_course.model.arrays import FloatArray
 
 WIDTH, LEFT, RIGHT = 640.0, 58.0, 14.0
@@ -78,9 +79,9 @@ def curve_chart(curve: Curve) -> CurveChart | None:
     y_ticks = nice_ticks(float(values.min()), float(values.max()), 5)
     reach = float(np.abs(curve.residual[both]).max()) or 1e-9
     residual_ticks = nice_ticks(-reach, reach, 2)
-    x = _Scale(x_low, x_high, LEFT, WIDTH - RIGHT)
-    y = _Scale(y_ticks[0], y_ticks[-1], TOP + MAIN, TOP)
-    r = _Scale(residual_ticks[0], residual_ticks[-1], TOP + MAIN + GAP + RESIDUAL, TOP + MAIN + GAP)
+    x = Scale(x_low, x_high, LEFT, WIDTH - RIGHT)
+    y = Scale(y_ticks[0], y_ticks[-1], TOP + MAIN, TOP)
+    r = Scale(residual_ticks[0], residual_ticks[-1], TOP + MAIN + GAP + RESIDUAL, TOP + MAIN + GAP)
     impact = curve.impact_ms
     return CurveChart(
         id=curve.id,
@@ -108,7 +109,7 @@ def _description(curve: Curve, both: np.ndarray) -> str:
     )
 
 
-def _runs(x: _Scale, y: _Scale, time_ms: FloatArray, values: FloatArray) -> tuple[str, ...]:
+def _runs(x: Scale, y: Scale, time_ms: FloatArray, values: FloatArray) -> tuple[str, ...]:
     """Return the curve as point lists, interrupted where nothing is known."""
     seen = np.isfinite(values)
     breaks = np.flatnonzero(np.diff(seen.astype(int))) + 1
@@ -117,7 +118,7 @@ def _runs(x: _Scale, y: _Scale, time_ms: FloatArray, values: FloatArray) -> tupl
     return tuple(" ".join(f"{x(time_ms[i]):g},{y(values[i]):g}" for i in piece) for piece in kept)
 
 
-def _dots(x: _Scale, y: _Scale, time_ms: FloatArray, values: FloatArray) -> tuple[tuple[float, float], ...]:
+def _dots(x: Scale, y: Scale, time_ms: FloatArray, values: FloatArray) -> tuple[tuple[float, float], ...]:
     return tuple((x(t), y(v)) for t, v in zip(time_ms, values, strict=True))
 
 
@@ -127,37 +128,6 @@ def _rows(curve: Curve, both: np.ndarray, most: int = 24) -> tuple[tuple[str, ..
     at = at[np.unique(np.linspace(0, at.size - 1, min(most, at.size)).round().astype(int))]
     columns = (curve.time_ms, curve.own, curve.true, curve.residual)
     return tuple(tuple(f"{column[i]:.4g}" for column in columns) for i in at)
-
-
-class _Scale:
-    """A straight map from numbers to places in the picture."""
-
-    def __init__(self, low: float, high: float, start: float, end: float) -> None:
-        self._low, self._start = low, start
-        self._slope = (end - start) / (high - low) if high > low else 0.0
-
-    def __call__(self, value: float) -> float:
-        return round(float(self._start + (value - self._low) * self._slope), 1)
-
-
-def nice_ticks(low: float, high: float, count: int) -> tuple[float, ...]:
-    """Return round numbers that enclose `low` and `high`, about `count` steps apart.
-
-    >>> nice_ticks(0.13, 0.87, 4)
-    (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)
-    """
-    if not high > low:
-        high, low = low + abs(low) * 0.1 + 1e-9, low - abs(low) * 0.1 - 1e-9
-    rough = (high - low) / count
-    power = 10.0 ** math.floor(math.log10(rough))
-    step = power * next(factor for factor in (1, 2, 2.5, 5, 10) if factor * power >= rough * 0.999)
-    first, last = math.floor(low / step + 1e-9), math.ceil(high / step - 1e-9)
-    return tuple(float(f"{i * step:.12g}") for i in range(first, last + 1))
-
-
-def label(value: float) -> str:
-    """Return a number for an axis, with a real minus sign."""
-    return f"{value:.6g}".replace("-", "−")
 
 
 @dataclass(frozen=True)

@@ -53,7 +53,10 @@ def test_a_broken_contract_fails_the_build(copy, path, source):
 
 
 def test_every_room_says_why_it_is_as_it_is():
-    rooms = [*PACKAGES, *(f"vml_course/{room}" for room in ("synth", "track", "kinetics", "io", "correlate", "model"))]
+    rooms = [
+        *PACKAGES,
+        *(f"vml_course/{room}" for room in ("synth", "track", "kinetics", "io", "correlate", "chart", "model")),
+    ]
     assert [room for room in rooms if not (ROOT / room / "README.md").is_file()] == []
 
 

@@ -69,7 +69,7 @@ MISTAKES = [
     ("step = 0.005", "", r"draw\.restitution\.step: expected a value, got none"),
     ("[draw.restitution]", "[draw.bounciness]", r"draw: expected one of .*restitution.*, got 'bounciness'"),
     ('scene = "soccer_kick"', 'scene = "tennis"', r"scene: expected one of .*soccer_kick.*, got 'tennis'"),
-    ('model = "fixed-pivot"', 'model = "free"', r"model: expected one of fixed-pivot.*, got 'free'"),
+    ('model = "fixed-pivot"', 'model = "free"', r"model: expected one of .*fixed-pivot.*, got 'free'"),
     ('handout = "handout.html.j2"', 'handout = "no.j2"', r"handout: expected a file in my-kick/, got 'no\.j2'"),
     ('dimension = "scale"', 'dimension = "zoom"', r"question\.px_per_m\.dimension: expected one of .*, got 'zoom'"),
     ('unit = "px/m"', 'unit = "m/px"', r"question\.px_per_m\.unit: expected 'px/m', the SI unit of scale, got 'm/px'"),

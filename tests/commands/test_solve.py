@@ -60,7 +60,13 @@ def test_without_a_knee_the_reference_still_solves_and_says_why_lines_do_not(tmp
         ([], "given m: expected a mass, got nothing. Give it with -g m=0.5kg."),
         (["-g", "m=0.5"], "given m: expected a unit after the number (kg, g, lb), got none."),
         (["-g", "m"], "-g: expected symbol=number unit, such as m=0.5kg, got 'm'."),
-        ([*GIVEN, "--model", "loose"], "model: expected one of fixed-pivot, got 'loose'."),
+        (
+            [*GIVEN, "--model", "loose"],
+            (
+                "model: expected one of ballistic-pendulum, fixed-pivot, free-rod, hammer-block, spin-bounce, "
+                "two-pucks, got 'loose'."
+            ),
+        ),
         ([*GIVEN, "--window", "40"], "--window: expected a unit after the number (s, ms), got none."),
     ],
 )
@@ -84,3 +90,76 @@ def test_given_numbers_bring_their_uncertainty():
 def test_given_numbers_that_make_no_sense_are_refused(text, error):
     with pytest.raises(error):
         read_given([text])
+
+
+@pytest.mark.parametrize("ending", ["svg", "png"])
+def test_a_plot_is_written_beside_the_numbers(tmp_path, capsys, ending):
+    plot = tmp_path / f"kick.{ending}"
+    assert cli.run(["solve", str(_kick_csv(tmp_path)), *GIVEN, "--gravity", "0 m/s^2", "--plot", str(plot)]) == 0
+    assert "0.7333" in capsys.readouterr().out
+    if ending == "svg":
+        shown = plot.read_text("utf-8")
+        for words in ("e = 0.7333", "ball, along the blow", "angle of foot about the pivot", "residual", "impact"):
+            assert words in shown
+    else:
+        assert plot.read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--plot", "kick.pdf"], "ends in .svg or .png"),
+        (["--plot", "kick.svg", "--method", "lines"], "a joint solution"),
+    ],
+)
+def test_a_plot_that_cannot_be_is_refused_and_nothing_is_left(tmp_path, capsys, monkeypatch, arguments, words):
+    monkeypatch.chdir(tmp_path)
+    table = _kick_csv(tmp_path)
+    assert cli.run(["solve", str(table), *GIVEN, "--gravity", "0 m/s^2", *arguments]) == 2
+    assert words in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == [table]
+
+
+def test_lines_are_for_pivoted_bodies_only(tmp_path, capsys):
+    table = _kick_csv(tmp_path)
+    given = ["-g", "m=0.5kg", "--striker", "foot", "--struck", "ball", "--gravity", "0 m/s^2", "--flight", "never"]
+    assert cli.run(["solve", str(table), *given, "--model", "two-pucks", "--method", "lines"]) == 2
+    assert "lines being for fixed-pivot and hammer-block" in capsys.readouterr().err
+
+
+def test_another_model_shows_its_own_symbols(tmp_path, capsys):
+    time = np.arange(60) / 480
+    s = (time - 0.0603)[:, None]
+    a = [0.1, 0.2] + np.where(s <= 0, [2.0, 0.5], [0.4, 0.5]) * s  # equal pucks along x, e = 0.6
+    b = [0.2, 0.2] + np.where(s <= 0, [0.0, 0.0], [1.6, 0.0]) * s
+    rows = np.column_stack([np.arange(60), time, a, b])
+    header = "frame,t_s,one_x_m,one_y_m,two_x_m,two_y_m\n"
+    table = tmp_path / "pucks.csv"
+    table.write_text(header + "\n".join(",".join(f"{x:.12g}" for x in row) for row in rows) + "\n", encoding="utf-8")
+    arguments = [
+        "--model",
+        "two-pucks",
+        "-g",
+        "m=0.2 kg",
+        "--striker",
+        "one",
+        "--struck",
+        "two",
+        "--gravity",
+        "0 m/s^2",
+    ]
+    assert cli.run(["solve", str(table), *arguments, "--flight", "never", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["e"]["value"] == pytest.approx(0.6, rel=1e-6)
+    assert found["M"]["value"] == pytest.approx(0.2, rel=1e-6)
+    assert "lines" not in found
+
+
+def test_a_picture_that_is_shown_twice_is_told(tmp_path, capsys):
+    table = _kick_csv(tmp_path)
+    rows = table.read_text("utf-8").splitlines()
+    old, new = rows[11].split(","), rows[12].split(",")
+    rows[12] = ",".join([*new[:2], *old[2:]])
+    table.write_text("\n".join(rows) + "\n", encoding="utf-8")
+    cli.run(["solve", str(table), *GIVEN, "--gravity", "0 m/s^2"])
+    assert "note: frames 411 show the picture before once more" in capsys.readouterr().out

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from vml_course.errors import NoImpactError
-from vml_course.kinetics.events import find_impact
+from vml_course.kinetics.events import contact_interval, find_impact
 
 GRAVITY = np.array([0.0, -9.81])
 
@@ -83,3 +83,19 @@ def test_a_ball_hardly_seen_has_no_impact(seen):
     xy[:seen] = 0.0
     with pytest.raises(NoImpactError):
         find_impact(np.arange(40) / 480, xy)
+
+
+@pytest.mark.parametrize("duration", [0.0, 0.004, 0.010])
+def test_the_contact_interval_holds_the_contact_and_little_more(duration):
+    """A half-sine pulse: the velocity grows from 0 to 24 m/s within the contact."""
+    time = np.arange(90) / 480
+    t = np.clip((time - 0.0831) / max(duration, 1e-12), 0.0, 1.0)
+    x = 12 * duration * (t - np.sin(np.pi * t) / np.pi) + 24 * np.clip(time - 0.0831 - duration, 0, None)
+    noise = np.random.default_rng(4).normal(scale=4e-5, size=(90, 2))
+    impact = find_impact(time, np.stack([x, 0 * x], axis=1) + noise)
+    start, end = contact_interval(impact, time)
+    if duration == 0:
+        assert start == end == pytest.approx(0.0831, abs=1e-4)
+    else:
+        assert 0.0831 - 1.1 / 480 < start < 0.0831 + 0.5 / 480  # its soft start is within the noise
+        assert 0.0831 + duration - 0.5 / 480 < end < 0.0831 + duration + 1.1 / 480

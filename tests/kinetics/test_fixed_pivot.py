@@ -19,10 +19,9 @@ from vml_course.errors import (
 from vml_course.kinetics.impact_model import ImpactOptions
 from vml_course.kinetics.lines import solve_by_lines
 from vml_course.kinetics.models import impact_model, model_names
-from vml_course.kinetics.swing import Seen, SwingData, jacobian, residuals
 
 GIVEN = {"m": 0.5, "L": 0.56}
-EXACT = 2e-6  # what the perturbation formula of the swing leaves in e and I
+EXACT = 1e-7  # of e and I without noise; the test's own path is integrated to 1e-11
 NO_DRIVE = ImpactOptions(drive="none")
 MODEL = impact_model("fixed-pivot")
 
@@ -253,21 +252,3 @@ def test_a_length_that_does_not_fit_the_path_is_refused_with_both_figures(kick, 
 def test_an_unknown_declaration_lists_the_known(name):
     with pytest.raises(UnknownNameError):
         ImpactOptions(**{name: "perhaps"})
-
-
-@settings(deadline=None, max_examples=30)
-@given_that(st.lists(st.floats(-1, 1), min_size=14, max_size=14), st.floats(-0.3, 0.3))
-def test_the_jacobian_is_the_derivative_of_the_residuals(numbers, tilt):
-    rng = np.random.default_rng(10)
-    time = np.linspace(-0.05, 0.05, 12)
-    seen = Seen(time, rng.normal(size=(12, 2)), np.full(12, 0.1), time > 0.001)
-    gravity = np.array([0.3, -9.8])
-    data = SwingData(seen, seen, 0.56, 0 * gravity, gravity, tilt, tuple(range(14)))
-    x = np.array(numbers) * np.array([1, 1, 3, 30, 30, 0.005, 1, 1, 10, 10, 10, 10, 20, 20])
-    steps = 1e-6 * np.maximum(np.abs(x), 1.0)
-    steps[5] = 1e-8
-    for j, column in enumerate(jacobian(x, data).T):
-        aside = np.zeros(14)
-        aside[j] = steps[j]
-        slope = (residuals(x + aside, data) - residuals(x - aside, data)) / (2 * steps[j])
-        np.testing.assert_allclose(column, slope, atol=2e-5 * max(1.0, np.abs(slope).max()))

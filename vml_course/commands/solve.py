@@ -55,6 +55,7 @@ def solve(
     striker: Annotated[str, typer.Option(help="Point that strikes.")] = "foot",
     struck: Annotated[str, typer.Option(help="Centre of the struck body.")] = "ball",
     knee: Annotated[str, typer.Option(help="Mark at the pivot: lines need it, joint only checks it.")] = "knee",
+    striker_mark: Annotated[str, typer.Option("--striker-mark", help="Second mark on the body that strikes.")] = "",
     drive: Annotated[Drive, typer.Option(help="none: no driving torque is declared; four times as sharp in I.")] = (
         Drive.free
     ),
@@ -66,18 +67,25 @@ def solve(
         str, typer.Option("--scale-sd", help="Relative standard deviation of the scale, such as 0.4%.")
     ] = "0",
     method: Annotated[Method, typer.Option(help="joint: least squares; lines: as a student does it.")] = Method.both,
+    plot: Annotated[
+        Path | None, typer.Option(help="Write positions, angle, fits and residuals there: .svg or .png.")
+    ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print the result as JSON.")] = False,
 ) -> None:
     """Find restitution e and moment of inertia I of an impact, each with its uncertainty (one standard deviation)."""
     from vml_course.kinetics.impact_model import ImpactOptions
     from vml_course.model.reading import read_number, read_quantity
+    from vml_course.usecases.plot_solution import check_plot, plot_solution
     from vml_course.usecases.solve_table import read_given, solve_table
 
+    if plot is not None:
+        check_plot(plot)
     values, given_sd = read_given(given or [])
     options = ImpactOptions(
         striker=striker,
         struck=struck,
         knee=knee,
+        striker_mark=striker_mark,
         drive=drive.value,
         flight=flight.value,
         at_rest=at_rest,
@@ -87,6 +95,8 @@ def solve(
         scale_sd=read_number(scale_sd, name="--scale-sd"),
     )
     solved = solve_table(table, model, values, options, method.value)
+    if plot is not None:
+        plot_solution(solved, plot)
     if as_json:
         typer.echo(json.dumps(_as_json(solved), indent=1, ensure_ascii=False))
     else:

@@ -19,12 +19,18 @@ class Arc:
     scatter_m: float
 
 
+SHORT = 0.3  # of its radius: a shorter arc is as good as a parabola, and its radius is known by the curvature alone
+
+
 def fit_arc(xy_m: FloatArray, rounds: int = 30) -> Arc:
     """Fit a circle to points, shape (n, 2), n >= 4, without NaN.
 
     Starts from the algebraic fit (linear, but drawn inwards by noise) and minimises the distances across
-    the path by Gauss-Newton steps.
+    the path by Gauss-Newton steps. A short arc, whose steps run away, is taken as a parabola over its chord.
     """
+    short = _short_arc(xy_m)
+    if short is not None:
+        return short
     middle = xy_m.mean(axis=0)
     x, y = (xy_m - middle).T
     a, b, c = np.linalg.lstsq(np.stack([2 * x, 2 * y, np.ones_like(x)], axis=1), x**2 + y**2, rcond=None)[0]
@@ -38,6 +44,28 @@ def fit_arc(xy_m: FloatArray, rounds: int = 30) -> Arc:
     scatter = float(np.sqrt(rest @ rest / max(len(x) - 3, 1)))
     radius_sd = scatter * float(np.sqrt(np.linalg.pinv(slopes.T @ slopes)[2, 2]))
     return Arc(unknown[:2] + middle, float(unknown[2]), radius_sd, scatter)
+
+
+def _short_arc(xy_m: FloatArray) -> Arc | None:
+    """Return the arc of a path that is nearly straight; None when it is not.
+
+    Along the chord h = a + b s + k s^2/2 has the curvature k, which noise shifts to either side alike.
+    """
+    middle = xy_m.mean(axis=0)
+    along = np.linalg.svd(xy_m - middle, full_matrices=False)[2][0]
+    across = np.array([-along[1], along[0]])
+    s, h = (xy_m - middle) @ along, (xy_m - middle) @ across
+    basis = np.stack([np.ones_like(s), s, 0.5 * s**2], axis=1)
+    weights = np.linalg.pinv(basis)
+    _, slope, curvature = weights @ h
+    rest, length = h - basis @ np.array(weights @ h), float(np.ptp(s))
+    scatter = float(np.sqrt(rest @ rest / max(len(s) - 3, 1)))
+    if not (abs(curvature) * length < SHORT and scatter < 0.02 * length):
+        return None
+    curvature_sd = scatter * float(np.sqrt(weights[2] @ weights[2]))
+    bend = curvature if abs(curvature) > 1e-9 else 1e-9
+    centre = middle + (across - slope * along) / bend
+    return Arc(centre, 1.0 / abs(bend), curvature_sd / bend**2, scatter)
 
 
 def centre_at_distance(xy_m: FloatArray, arc: Arc, radius_m: float, rounds: int = 20) -> FloatArray:

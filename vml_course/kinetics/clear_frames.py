@@ -10,12 +10,27 @@ from numpy.typing import NDArray
 from vml_course.errors import NoImpactError, SeveralImpactsError, TooFewFramesError
 from vml_course.kinetics.events import Impact, find_impact
 from vml_course.kinetics.impact_model import ImpactOptions
-from vml_course.kinetics.swing import Seen
 from vml_course.model.arrays import FloatArray, IntArray
 from vml_course.model.motion import Motion
 
 LEAST_FRAMES = 5
 USUAL_FRAMES = 10
+SIDES = ("before", "after")
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Seen:
+    """Clear frames of one point: time (n,), position (n, 2), sigma (n,), and whether after the impact (n,)."""
+
+    time_s: FloatArray
+    xy_m: FloatArray
+    sigma_m: FloatArray
+    is_after: NDArray[np.bool_]
+
+    @property
+    def counts(self) -> tuple[int, int]:
+        """How many frames lie before and after the impact."""
+        return int(np.sum(~self.is_after)), int(np.sum(self.is_after))
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -26,8 +41,20 @@ class ClearFrames:
     before: IntArray
     after: IntArray
 
-    def seen(self, motion: Motion, point: str) -> Seen:
+    @property
+    def contact_frames(self) -> int:
+        """How many frames between both sides were left out."""
+        return self.impact.first_after - self.impact.last_before - 1
+
+    def seen(self, motion: Motion, point: str, sides: tuple[str, ...] = SIDES) -> Seen:
         """Return one point's measured clear frames, time counted from the impact as it was found.
+
+        Parameters
+        ----------
+        motion : Motion
+        point : str
+        sides : tuple of str
+            Which of "before" and "after" are wanted; a pellet that is stuck in a block has no after.
 
         Raises
         ------
@@ -35,9 +62,9 @@ class ClearFrames:
         """
         xy, frames = motion.of(point), np.concatenate([self.before, self.after])
         is_after = np.repeat([False, True], [len(self.before), len(self.after)])
-        is_seen = np.isfinite(xy[frames]).all(axis=1)
-        for side, wanted in (("before", ~is_after), ("after", is_after)):
-            count = int(np.sum(is_seen & wanted))
+        is_seen = np.isfinite(xy[frames]).all(axis=1) & np.isin(is_after, [side == "after" for side in sides])
+        for side in sides:
+            count = int(np.sum(is_seen & (is_after == (side == "after"))))
             if count < LEAST_FRAMES:
                 hint = "Track more frames, or film faster."
                 wish = f"at least {LEAST_FRAMES} clear frames {side} the impact"
@@ -55,27 +82,43 @@ def _sigma(sigma_m: FloatArray) -> FloatArray:
     return np.where(is_known, np.clip(sigma_m, usual / 3.0, None), usual)
 
 
-def clear_frames(motion: Motion, options: ImpactOptions, window_s: float) -> ClearFrames:
-    """Find the impact and the clear frames about it.
+def clear_frames(motion: Motion, options: ImpactOptions, window_s: float | tuple[float, float]) -> ClearFrames:
+    """Find the impact by the struck body, and the clear frames of striker and struck body about it.
 
-    The window is `window_s` each side, but never fewer than 10 frames where there are.
+    The window is `window_s` each side (or a pair: before, after), but never fewer than 10 frames where there are.
 
     Raises
     ------
     NoImpactError, SeveralImpactsError, TooFewFramesError, UnknownNameError
     """
-    gravity = np.array(options.gravity_xy_m_s2)
-    before_g = gravity if options.flight == "always" else None
-    after_g = None if options.flight == "never" else gravity
-    time, struck = motion.time_s, motion.of(options.struck)
-    impact = find_impact(time, struck, gravity_before=before_g, gravity_after=after_g, name=options.struck)
-    both = np.isfinite(motion.of(options.striker)).all(axis=1) & np.isfinite(struck).all(axis=1)
+    g = np.array(options.gravity_xy_m_s2)
+    gravity = g if options.flight == "always" else None, None if options.flight == "never" else g
+    seen = np.isfinite([motion.of(name) for name in (options.striker, options.struck)]).all(axis=(0, 2))
+    return frames_about(motion, options.struck, np.asarray(seen), gravity, window_s)
+
+
+def frames_about(
+    motion: Motion,
+    point: str,
+    is_seen: NDArray[np.bool_],
+    gravity: tuple[FloatArray | None, FloatArray | None],
+    window_s: float | tuple[float, float],
+) -> ClearFrames:
+    """Find the impact by one point, and the frames about it in which all that is needed `is_seen`, shape (n,).
+
+    Raises
+    ------
+    NoImpactError, SeveralImpactsError, UnknownNameError
+    """
+    time, xy = motion.time_s, motion.of(point)
+    impact = find_impact(time, xy, gravity_before=gravity[0], gravity_after=gravity[1], name=point)
     frames = np.arange(len(time))
-    before = frames[both & (frames <= impact.last_before)][::-1]
-    after = frames[both & (frames >= impact.first_after)]
-    sides = [_near(time, side, window_s) for side in (before, after)]
-    for side, g in zip(sides, (before_g, after_g), strict=True):
-        _refuse_second_impact(time[side], struck[side], g, impact, options.struck)
+    before = frames[is_seen & (frames <= impact.last_before)][::-1]
+    after = frames[is_seen & (frames >= impact.first_after)]
+    windows = window_s if isinstance(window_s, tuple) else (window_s, window_s)
+    sides = [_near(time, side, window) for side, window in zip((before, after), windows, strict=True)]
+    for side, g in zip(sides, gravity, strict=True):
+        _refuse_second_impact(time[side], xy[side], g, impact, point)
     return ClearFrames(impact, sides[0][::-1], sides[1])
 
 

@@ -49,6 +49,17 @@ class Impact:
         return np.asarray(self.after.slope - self.before.slope)
 
 
+def contact_interval(impact: Impact, time_s: FloatArray) -> tuple[float, float]:
+    """Return start and end of the contact, seconds, as `differentiate` takes it; equal when no frame shows contact.
+
+    A contact that frames show began after the last clear frame before and ended before the first clear one after, so
+    the interval is longer than the contact by up to a frame on either side.
+    """
+    if impact.first_after - impact.last_before < 2:
+        return impact.time_s, impact.time_s
+    return float(time_s[impact.last_before]), float(time_s[impact.first_after])
+
+
 def find_impact(
     time_s: FloatArray,
     xy_m: FloatArray,
@@ -78,6 +89,10 @@ def find_impact(
     NoImpactError
     """
     seen = np.flatnonzero(np.isfinite(xy_m).all(axis=1) & np.isfinite(time_s))
+    if gravity_before is not None and gravity_after is not None and np.array_equal(gravity_before, gravity_after):
+        # Seen by somebody who falls along, a body that always flies goes straight.
+        xy_m = xy_m - 0.5 * np.multiply.outer((time_s - np.nanmean(time_s)) ** 2, gravity_before)
+        gravity_before = gravity_after = None
     found = split_of(time_s[seen], xy_m[seen])
     if found is None:
         hint = "Choose the struck body, and a clip with frames on both sides of the impact."
@@ -100,7 +115,22 @@ def _impact(time_s: FloatArray, straight: FloatArray, seen: IntArray, split: int
     first = away_before[_contact_frames(times[away_before], straight[away_before], noise_m) :][:HALF_WINDOW]
     last = away_after[_contact_frames(times[away_after], straight[away_after], noise_m) :][:HALF_WINDOW]
     before, after = fit_line(times[first], straight[first]), fit_line(times[last], straight[last])
-    return Impact(int(seen[first[0]]), int(seen[last[0]]), meeting_time(before, after), before, after)
+    moment = meeting_time(before, after)
+    # On a curved path the split may be a frame off: frames between that lie on a side's line are that side's.
+    between = np.arange(first[0] + 1, last[0])
+    early, late = between[times[between] <= moment], between[times[between] > moment][::-1]
+    last_before = int(first[0]) + _still_on(before, times[early], straight[early], noise_m)
+    first_after = int(last[0]) - _still_on(after, times[late], straight[late], noise_m)
+    return Impact(int(seen[last_before]), int(seen[first_after]), moment, before, after)
+
+
+def _still_on(line: Line, time_s: FloatArray, straight: FloatArray, noise_m: float) -> int:
+    """Return how many frames, one after another, lie on a line."""
+    for count, (time, place) in enumerate(zip(time_s, straight, strict=True)):
+        off = float(np.abs(place - line.position(float(time))).max())
+        if off > CLEAR_SD * line.prediction_sd(float(time), line.residual_sd + noise_m):
+            return count
+    return len(time_s)
 
 
 def split_of(time_s: FloatArray, xy_m: FloatArray) -> tuple[int, int] | None:

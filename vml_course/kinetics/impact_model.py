@@ -14,7 +14,10 @@ from vml_course.model.solution import ImpactSolution
 DRIVES = ("free", "none")
 FLIGHTS = ("after", "always", "never")
 
-SYMBOLS: Mapping[str, str] = {"m": "mass", "M": "mass", "L": "length", "D": "length", "R": "length", "a": "length"}
+SYMBOLS: Mapping[str, str] = {
+    "m": "mass", "M": "mass", "L": "length", "D": "length", "R": "length", "a": "length", "b": "length", "c": "length",
+    "d": "length", "k": "number",
+}  # fmt: skip
 """Numbers that a student may be given, and their dimensions."""
 
 
@@ -28,6 +31,8 @@ class ImpactOptions:
         Names of the tracked points: the striking point, and the struck body's centre.
     knee : str
         A mark at the pivot, for a check only (a mark 20 mm off would cost 22 % of I).
+    striker_mark, struck_mark : str
+        A second mark on the striking body, and one on the struck body away from its centre, where a model needs it.
     drive : str
         "free": an unknown constant driving acceleration is allowed for; "none": the assignment declares
         that there is none, which is four times as sharp in I.
@@ -49,6 +54,8 @@ class ImpactOptions:
     striker: str = "foot"
     struck: str = "ball"
     knee: str = "knee"
+    striker_mark: str = ""
+    struck_mark: str = ""
     drive: str = "free"
     flight: str = "after"
     at_rest: bool = False
@@ -80,11 +87,14 @@ class ImpactModel(Protocol):
     name, title : str
     given : mapping of str to str
         Symbol of each number that must be given, and its dimension (a key of `UNITS`).
+    optional : mapping of str to str
+        Symbols that may be given beside.
     """
 
     name: str
     title: str
     given: Mapping[str, str]
+    optional: Mapping[str, str]
 
     def predict(self, parameters: Mapping[str, float], before: Mapping[str, float]) -> dict[str, float]:
         """Return the state after the impact, in closed form."""
@@ -95,15 +105,18 @@ class ImpactModel(Protocol):
         ...
 
 
-def check_given(given: Mapping[str, float], needed: Mapping[str, str]) -> None:
-    """Check that every needed symbol is given and positive.
+def check_given(
+    given: Mapping[str, float], needed: Mapping[str, str], optional: Mapping[str, str] | None = None
+) -> None:
+    """Check that every needed symbol is given, and that it is positive, as those that may be given must be.
 
     Raises
     ------
     InputError
     """
-    examples = {"mass": "0.5kg", "length": "0.56m"}
-    for symbol, dimension in needed.items():
+    examples = {"mass": "0.5kg", "length": "0.56m", "number": "0.4"}
+    may = {symbol: dimension for symbol, dimension in (optional or {}).items() if symbol in given}
+    for symbol, dimension in {**needed, **may}.items():
         if symbol not in given:
             example = f"Give it with -g {symbol}={examples.get(dimension, '...')}."
             raise InputError(f"given {symbol}", f"a {dimension}", "nothing", example)

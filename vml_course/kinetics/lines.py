@@ -21,6 +21,7 @@ from vml_course.model.motion import Motion, vector_between
 from vml_course.model.solution import Estimate, ImpactSolution
 
 WINDOW_S = 0.020
+MODELS = ("fixed-pivot", "hammer-block")  # those that it can solve: a pivoted body and another one
 GIVEN = {"m": "mass", "L": "length"}
 
 
@@ -29,7 +30,7 @@ def solve_by_lines(
 ) -> ImpactSolution:
     """Return e and I as a student finds them with a spreadsheet.
 
-    e = (v_b2 - w2 L) / (w1 L - v_b1),  I = m L (v_b2 - v_b1) / (w1 - w2),
+    e = (v_b2 - w2 a) / (w1 a - v_b1),  I = m a (v_b2 - v_b1) / (w1 - w2),  a = L where it is not given,
 
     with rates counted positive towards the ball and ball speeds along the change of its velocity.
 
@@ -38,7 +39,7 @@ def solve_by_lines(
     motion : Motion
         With points for the foot, the knee and the ball.
     given : mapping of str to float
-        `m` in kg, `L` in m.
+        `m` in kg, `L` in m; `a` in m where the contact normal has another arm than L (a door).
     options : ImpactOptions, optional
     window_s : float
         Time each side.
@@ -48,7 +49,7 @@ def solve_by_lines(
     InputError, NoImpactError, SeveralImpactsError, TooFewFramesError, UnknownNameError
     """
     options = options or ImpactOptions()
-    check_given(given, GIVEN)
+    check_given(given, GIVEN, {"a": "length"})
     frames = clear_frames(motion, options, window_s)
     leg = _leg_lines(motion, options, frames)
     ball = _ball_lines(motion, options, frames)
@@ -69,7 +70,7 @@ def solve_by_lines(
         correlation_e_I=float("nan"),
         frame_before=int(motion.frame[frames.impact.last_before]),
         figures={
-            "r": float(1.0 - values[1] / values[0]),
+            "r": float(1.0 - values[1] / values[0]) if values[0] else float("nan"),
             "frames_before": float(leg[0].count),
             "frames_after": float(leg[1].count),
         },
@@ -104,9 +105,9 @@ def _towards_ball(motion: Motion, options: ImpactOptions, frames: ClearFrames, n
 def _estimates(
     rates: FloatArray, errors: FloatArray, given: Mapping[str, float], given_sd: Mapping[str, float]
 ) -> dict[str, Estimate]:
-    """Return the derived quantities with errors propagated from (w1, w2, u1, u2), m and L, all independent."""
-    inputs = np.array([*rates, given["m"], given["L"]])
-    sds = np.array([*errors, given_sd.get("m", 0.0), given_sd.get("L", 0.0)])
+    """Return the derived quantities with errors propagated from (w1, w2, u1, u2), m, L and a, all independent."""
+    inputs = np.array([*rates, given["m"], given["L"], given.get("a", given["L"]) / given["L"]])
+    sds = np.array([*errors, given_sd.get("m", 0.0), given_sd.get("L", 0.0), given_sd.get("a", 0.0) / given["L"]])
     total = np.zeros(len(_UNITS))
     for j, sd in enumerate(sds):
         step = np.zeros_like(inputs)
@@ -122,8 +123,9 @@ _UNITS = {
 
 
 def _derived(inputs: FloatArray) -> FloatArray:
-    w1, w2, u1, u2, mass, length = map(float, inputs)
-    e = restitution(length, w1, w2, u1, u2)
-    inertia = inertia_about_pivot(mass, length, w1, w2, u1, u2)
+    w1, w2, u1, u2, mass, length, share = map(float, inputs)
+    arm = share * length
+    e = restitution(arm, w1, w2, u1, u2)
+    inertia = inertia_about_pivot(mass, arm, w1, w2, u1, u2)
     loss = 0.5 * inertia * (w1**2 - w2**2) + 0.5 * mass * (u1**2 - u2**2)
     return np.array([e, inertia, length * w1, length * w2, u1, u2, mass * (u2 - u1), loss])

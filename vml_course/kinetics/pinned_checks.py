@@ -2,101 +2,65 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
-import numpy as np
-
 from vml_course.errors import LengthMismatchError, UpsideDownError
 from vml_course.kinetics.arc import fit_arc
+from vml_course.kinetics.calibration_checks import Fall, apparent_gravity, gravity_cause
+from vml_course.kinetics.clear_frames import Seen
 from vml_course.kinetics.impact_model import ImpactOptions
-from vml_course.kinetics.swing import Seen, SwingData
-from vml_course.model.arrays import FloatArray
 
 LENGTH_SHARE = 0.02
 DOUBT_SD = 3.0
 RADIUS_NOTE = 0.003
 
 
-@dataclass(frozen=True, slots=True)
-class Fall:
-    """Downward acceleration of the free ball with its standard deviation, m/s^2 (NaN: too few frames)."""
-
-    value: float
-    sd: float
-
-
-def apparent_gravity(ball: Seen, up_angle_rad: float) -> Fall:
-    """Measure the free ball's downward acceleration after the impact.
-
-    A wrong frame rate shows as the square of its factor, a wrong scale as its factor.
-    """
-    t, xy = ball.time_s[ball.is_after], ball.xy_m[ball.is_after]
-    if len(t) < 6:
-        return Fall(float("nan"), float("inf"))
-    down = -(xy @ np.array([np.cos(up_angle_rad), np.sin(up_angle_rad)]))
-    middle = float(t.mean())
-    basis = np.stack([np.ones_like(t), t - middle, 0.5 * (t - middle) ** 2], axis=1)
-    weights = np.linalg.pinv(basis)
-    rest = down - basis @ (weights @ down)
-    scatter = float(np.sqrt(rest @ rest / (len(t) - 3)))
-    return Fall(float((weights @ down)[2]), scatter * float(np.sqrt(weights[2] @ weights[2])) + 1e-9)
-
-
-def refuse_misfits(data: SwingData, options: ImpactOptions) -> None:
+def refuse_misfits(foot: Seen, struck: Seen, length_m: float, options: ImpactOptions) -> None:
     """Refuse data that cannot be what they are said to be.
 
     Raises
     ------
     UpsideDownError
-        When the free ball falls upwards.
+        When the free body falls upwards.
     LengthMismatchError
         When the given length is not the radius of the striker's path (3 sd and 2 %).
     """
-    g, fall = options.gravity_m_s2, apparent_gravity(data.ball, options.up_angle_rad)
+    refuse_upside_down(struck, options)
+    arc = fit_arc(foot.xy_m)
+    # In curvatures: those of a short arc are nearly normal, its radii are not.
+    off = abs(1.0 / arc.radius_m - 1.0 / length_m) * length_m
+    if off > max(DOUBT_SD * arc.radius_sd_m * length_m / arc.radius_m**2, LENGTH_SHARE):
+        raise LengthMismatchError("given L", arc.radius_m, arc.radius_sd_m, length_m)
+
+
+def refuse_upside_down(body: Seen, options: ImpactOptions) -> None:
+    """Refuse a free body that falls upwards.
+
+    Raises
+    ------
+    UpsideDownError
+    """
+    g, fall = options.gravity_m_s2, apparent_gravity(body, options.up_angle_rad)
     if options.flight != "never" and g > 0 and fall.value < -0.5 * g and not _could_fall(fall, g):
         hint = "World coordinates have y up; set the axes, or change the sign of y."
         got = f"{-fall.value:.1f} m/s^2 upwards"
         raise UpsideDownError(options.struck, f"a ball that falls with about {g:g} m/s^2", got, hint)
-    arc = fit_arc(data.foot.xy_m)
-    sure = max(DOUBT_SD * arc.radius_sd_m, LENGTH_SHARE * data.length_m)
-    if abs(arc.radius_m - data.length_m) > sure:
-        raise LengthMismatchError("given L", arc.radius_m, arc.radius_sd_m, data.length_m)
 
 
 def _could_fall(fall: Fall, gravity_m_s2: float) -> bool:
     return fall.value + 5.0 * fall.sd > 0.25 * gravity_m_s2
 
 
-def knee_offset(knee_m: FloatArray, pivot_m: FloatArray, pivot_sd_m: float) -> tuple[float, float] | None:
-    """Return the distance of the knee mark from the fitted pivot with its sd, metres; None without a mark."""
-    seen = knee_m[np.isfinite(knee_m).all(axis=1)]
-    if len(seen) == 0:
-        return None
-    middle = np.median(seen, axis=0)
-    scatter = float(np.sqrt(np.mean((seen - middle) ** 2)))
-    return float(np.hypot(*(middle - pivot_m))), float(np.hypot(pivot_sd_m, scatter))
-
-
-def notes_on(figures: dict[str, float], e: tuple[float, float], options: ImpactOptions) -> tuple[str, ...]:
-    """Return what a person should know of a solution, from its figures and e with its sd."""
+def pinned_notes(figures: dict[str, float], options: ImpactOptions) -> list[str]:
+    """Return what a person should know of a pivoted body's solution, beside the common notes."""
     told = {
         _knee_note(figures, options): _knee_stands_off(figures),
-        f"residuals of neighbouring frames are alike (lag-1 correlation {figures['residual_lag1']:.2f}); "
-        "the uncertainties are widened for it": figures["residual_lag1"] > 0.3 and figures["residual_rms_m"] > 1e-6,
-        f"e = {e[0]:.3f} is outside 0 to 1: the impact would make or lose more energy than there is; "
-        "check frame rate, scale, L and contact frames": _is_outside(e),
         f"the rate of the striker changes by {100 * abs(figures['r']):.1f} % only; I is as uncertain as that "
         "small difference": abs(figures["r"]) < 0.1,
         f"the path of {options.striker} has a radius of {figures['arc_radius_m']:.4g} m, "
         f"{100 * abs(figures['arc_radius_off']):.1f} % {'more' if figures['arc_radius_off'] > 0 else 'less'} than L: "
         "the scale or the clicked point is a little off": abs(figures["arc_radius_off"]) > RADIUS_NOTE,
         _gravity_note(figures, options): _gravity_is_off(figures, options),
-        f"{figures['contact_frames']:.0f} frames next to the impact show contact and were left out": figures[
-            "contact_frames"
-        ]
-        > 0,
     }
-    return tuple(note for note, is_true in told.items() if is_true)
+    return [note for note, is_true in told.items() if is_true]
 
 
 def _knee_stands_off(figures: dict[str, float]) -> bool:
@@ -109,10 +73,6 @@ def _knee_note(figures: dict[str, float], options: ImpactOptions) -> str:
     return f"point {options.knee} is {offset_mm:.0f} mm from the pivot that the path of {options.striker} shows"
 
 
-def _is_outside(e: tuple[float, float]) -> bool:
-    return e[0] < -DOUBT_SD * e[1] or e[0] > 1 + DOUBT_SD * e[1]
-
-
 def _gravity_is_off(figures: dict[str, float], options: ImpactOptions) -> bool:
     fall = Fall(figures["apparent_g_m_s2"], figures["apparent_g_sd_m_s2"])
     g = options.gravity_m_s2
@@ -121,7 +81,8 @@ def _gravity_is_off(figures: dict[str, float], options: ImpactOptions) -> bool:
 
 def _gravity_note(figures: dict[str, float], options: ImpactOptions) -> str:
     value, sd = figures["apparent_g_m_s2"], figures["apparent_g_sd_m_s2"]
+    cause = gravity_cause(value, options.gravity_m_s2)
     return (
         f"{options.struck} falls with {value:.2f} ± {sd:.2f} m/s^2 instead of {options.gravity_m_s2:g}: "
-        "check frame rate and scale, or it is not in free flight"
+        f"check frame rate and scale{cause}, or it is not in free flight"
     )

@@ -5,7 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+import numpy as np
+
 from vml_course.model.arrays import Axes, FloatArray, set_frozen
+from vml_course.model.motion import Motion
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,6 +72,10 @@ class ImpactSolution:
         What a person should know: pivot away from the knee mark, correlated residuals, few frames ...
     figures : mapping of str to float
         Diagnostics: residual_rms_m, residual_lag1, knee_offset_m, r, frames_before, frames_after ...
+    covariance : float array, shape (k, k)
+        Of all estimates in their order, in SI units; shape (0, 0) when the method gives none.
+    fitted : Motion or None
+        Where the model puts the points in the frames that were fitted, NaN elsewhere.
     """
 
     model: str
@@ -78,6 +85,11 @@ class ImpactSolution:
     frame_before: int
     notes: tuple[str, ...] = ()
     figures: Mapping[str, float] = field(default_factory=dict)
+    covariance: FloatArray = field(default_factory=lambda: np.zeros((0, 0)), compare=False)
+    fitted: Motion | None = field(default=None, compare=False)
+
+    def __post_init__(self) -> None:
+        set_frozen(self, covariance=Axes().freeze("covariance", self.covariance, "k", "k"))
 
     def value(self, symbol: str) -> float:
         """Return one value by its symbol."""

@@ -8,7 +8,9 @@ from pathlib import Path
 
 from vml_course.errors import InputError, TooFewFramesError, UnknownNameError
 from vml_course.io.tables import read_motion
+from vml_course.kinetics.frame_faults import find_frame_faults
 from vml_course.kinetics.impact_model import SYMBOLS, ImpactOptions
+from vml_course.kinetics.lines import MODELS as BY_LINES
 from vml_course.kinetics.lines import solve_by_lines
 from vml_course.kinetics.models import impact_model
 from vml_course.model.motion import Motion
@@ -22,6 +24,8 @@ METHODS = ("both", "joint", "lines")
 class Solved:
     """What was found: by the reference method, and by the student's; None where it was not asked or failed."""
 
+    motion: Motion
+    options: ImpactOptions
     joint: ImpactSolution | None
     lines: ImpactSolution | None
     notes: tuple[str, ...]
@@ -93,13 +97,16 @@ def solve_motion(
     if method not in METHODS:
         raise UnknownNameError("method", method, METHODS)
     options, solver = options or ImpactOptions(), impact_model(model)
+    if method == "lines" and model not in BY_LINES:
+        hint = "Use --method joint."
+        raise InputError("method", f"joint, lines being for {' and '.join(BY_LINES)}", "lines", hint)
     joint = solver.solve(motion, given, options) if method != "lines" else None
-    lines, notes = None, joint.notes if joint else ()
+    lines, notes = None, (*(joint.notes if joint else ()), *find_frame_faults(motion).notes)
     if method == "lines":
         lines = solve_by_lines(motion, given, options)
-    elif method == "both":
+    elif method == "both" and model in BY_LINES:
         try:
             lines = solve_by_lines(motion, given, options)
         except (UnknownNameError, TooFewFramesError) as error:
             notes = (*notes, f"no solution by lines: {error}")
-    return Solved(joint, replace(lines, model=model) if lines else None, notes)
+    return Solved(motion, options, joint, replace(lines, model=model) if lines else None, notes)

@@ -1,5 +1,7 @@
 """A rigid leg on a fixed pivot kicks a ball: the impact of the VML paper, bats, hammers and doors alike.
 
+A door that a ball strikes is one too: it is at rest before, and `a` says where it is hit.
+
 Unknown pivot, joint least squares of both paths, shared impact time, gravity on leg and ball, and, unless
 it is declared absent, a constant driving acceleration. See `kinetics/README.md` for what each choice costs.
 """
@@ -12,12 +14,13 @@ from typing import final
 import numpy as np
 
 from vml_course.kinetics.clear_frames import clear_frames
-from vml_course.kinetics.fit import fit_swing
 from vml_course.kinetics.impact_model import ImpactOptions, check_given
+from vml_course.kinetics.paths import flying
 from vml_course.kinetics.pinned import after_impact
 from vml_course.kinetics.pinned_checks import refuse_misfits
-from vml_course.kinetics.pinned_result import result_of
-from vml_course.kinetics.swing import UNKNOWNS, V1, P, Q, SwingData
+from vml_course.kinetics.pinned_problem import mark_at, pinned_problem
+from vml_course.kinetics.pinned_result import pinned_solution
+from vml_course.kinetics.solved import Solving
 from vml_course.model.motion import Motion
 from vml_course.model.solution import ImpactSolution
 
@@ -29,6 +32,7 @@ class FixedPivot:
     name = "fixed-pivot"
     title = "A body on a fixed pivot and a ball"
     given: Mapping[str, str] = {"m": "mass", "L": "length"}
+    optional: Mapping[str, str] = {"a": "length"}
 
     def predict(self, parameters: Mapping[str, float], before: Mapping[str, float]) -> dict[str, float]:
         """Return the state after the impact, in closed form.
@@ -58,7 +62,8 @@ class FixedPivot:
         motion : Motion
             Metres, y up.
         given : mapping of str to float
-            `m` ball mass in kg, `L` distance from the pivot to the striking point in m.
+            `m` ball mass in kg, `L` distance from the pivot to the tracked striking point in m; `a` lever arm of the
+            contact normal in m, where the ball meets the body elsewhere than at the tracked point (a door).
         options : ImpactOptions, optional
 
         Raises
@@ -67,29 +72,17 @@ class FixedPivot:
         LengthMismatchError
         """
         options = options or ImpactOptions()
-        check_given(given, self.given)
+        check_given(given, self.given, self.optional)
         frames = clear_frames(motion, options, options.window_s)
         foot, ball = frames.seen(motion, options.striker), frames.seen(motion, options.struck)
+        refuse_misfits(foot, ball, given["L"], options)
         gravity, none = np.array(options.gravity_xy_m_s2), np.zeros(2)
-        data = SwingData(
-            foot=foot,
-            ball=ball,
-            length_m=given["L"],
-            gravity_before=gravity if options.flight == "always" else none,
-            gravity_after=none if options.flight == "never" else gravity,
-            tilt_rad=options.up_angle_rad - np.pi / 2,
-            unknowns=_unknowns(options),
+        path = flying(
+            "b", gravity if options.flight == "always" else none, none if options.flight == "never" else gravity
         )
-        refuse_misfits(data, options)
-        return result_of(self.name, fit_swing(data), motion, given, options, frames)
-
-
-def _unknowns(options: ImpactOptions) -> tuple[int, ...]:
-    """Return what is estimated: no gravity term in a top view, no drive nor velocity where none is declared."""
-    absent = {P} if options.gravity_m_s2 == 0 else set()
-    absent |= {Q} if options.drive == "none" else set()
-    absent |= {V1, V1 + 1} if options.at_rest else set()
-    return tuple(index for index in range(len(UNKNOWNS)) if index not in absent)
+        known = {symbol: given[symbol] for symbol in (*self.given, *self.optional) if symbol in given}
+        problem = pinned_problem(foot, ball, path, known, options, mark_at(motion, options.knee))
+        return pinned_solution(Solving(self.name, motion, given, options, frames), problem)
 
 
 MODEL = FixedPivot()

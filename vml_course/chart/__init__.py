@@ -1,0 +1,1 @@
+"""Small pictures as lines and words: axes, shapes, and what turns them into SVG or PNG."""
