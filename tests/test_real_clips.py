@@ -135,8 +135,8 @@ def test_launch_speed_and_gravity_of_the_projectile_fit_its_name(ball: Track) ->
 
 def test_the_ball_that_strikes_the_floor_is_lost_and_not_guessed() -> None:
     track = follow("pt_projectile_45deg_2.687mps.mp4", {"ball": (49.2, 68.9)}, 13, 180, 285)
-    assert_followed_well_or_lost(track, but_in=(272,))
-    assert track.is_lost[track.frame > 272].all()
+    assert_followed_well_or_lost(track)
+    assert track.is_lost[track.frame > 271].all()
 
 
 # ---------------------------------------------------------------- the rolling disc

@@ -54,6 +54,7 @@ class Case:
     contrast: float = 1.0
     drift: float = 0.0
     settings: dict[str, float] = field(default_factory=dict)
+    starts_sharp: bool = False
 
 
 def every(limit_px):
@@ -74,6 +75,14 @@ CASES = {
         scene=SLOW,
         settings={"shutter": 0.9},
         file_fps=240.0,
+    ),
+    "240, shutter 0.9, the first picture sharp": Case(
+        {"foot": BLURRED_FOOT_PX, "ball": BLURRED_BALL_PX},
+        {"foot": 0.05, "ball": BLURRED_BALL_PX},
+        camera=Camera(fps=240, shutter=0.9),
+        scene=SLOW,
+        settings={"shutter": 0.9},
+        starts_sharp=True,
     ),
     "brightness drifts by 30 %": DRIFTING,
     "480 in the file, too": replace(SHARP, held_px=every(0.027), file_fps=STARVED_FPS),
@@ -101,11 +110,21 @@ def noise_before_light(case):
     return replace(case.recording, noise_grey=min(case.recording.noise_grey / case.contrast, 20.0))
 
 
+def shown(case, truth, seed):
+    """The pictures; the first one by a flash where the points are said to be still at first."""
+    pictures = render(truth, noise_before_light(case))
+    if case.starts_sharp:
+        next(pictures)
+        flash = simulate(case.scene, replace(case.camera, shutter=0.0), seed)
+        yield next(render(flash, noise_before_light(case)))
+    yield from pictures
+
+
 def film(case, seed, folder):
     truth = simulate(case.scene, case.camera, seed)
     truth = truth if case.camera.shutter else spun(truth)
     n = len(truth.time_s)
-    pictures = (lit(p, case, 2 * k / (n - 1) - 1) for k, p in enumerate(render(truth, noise_before_light(case))))
+    pictures = (lit(p, case, 2 * k / (n - 1) - 1) for k, p in enumerate(shown(case, truth, seed)))
     write_video(folder / "clip.mp4", pictures, case.file_fps, int(case.recording.crf))
     return truth, list(read_frames(folder / "clip.mp4"))
 

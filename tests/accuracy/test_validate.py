@@ -63,8 +63,8 @@ def test_a_sign_in_the_kernel_turns_it_red(monkeypatch):
 def test_a_wrong_frame_time_turns_it_red(monkeypatch, factor):
     honest = making.write_video
 
-    def slowed(path, pictures, fps, crf):
-        return honest(path, pictures, fps * factor, crf)
+    def slowed(path, pictures, fps, *how):
+        return honest(path, pictures, fps * factor, *how)
 
     monkeypatch.setattr(making, "write_video", slowed)
     broken = only().broken

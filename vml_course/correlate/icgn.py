@@ -27,7 +27,8 @@ SMALLEST_GAIN = 0.5  # share of the contrast ratio; a poor start must not turn i
 LARGEST_STRETCH = 3.0
 BLANK_VARIANCE = 0.01  # grey levels squared; float32 sums tell no less from nothing
 GEOMETRIC_PX = 0.3  # at the corner: shorter steps shrink by the same share each time
-LARGEST_STRETCH_OF_STEP = 1.5
+LARGEST_STRETCH_OF_STEP = 1.4
+SAME_WAY = 0.9  # cosine
 SAFETY = 2.0  # on that share
 
 
@@ -264,11 +265,17 @@ def damp(products, share, hardly_shrinks):  # type: ignore[no-untyped-def] # noq
 def measure_pace(products, pull, report):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN201
     """Write stretch and contraction, from a step and the one before, which was `pull` times as long as computed.
 
-    When steps fall short by q, the second is 1 / pull - (1 - q) of the first (of what was taken of it).
+    When steps fall short by q, the second is 1 / pull - (1 - q) of the first (of what was taken of it). Only where
+    both, had they not been stretched, point the same way, do all freedoms fall short alike: a block that slides along
+    an edge has slow ones and fast ones, and stretching would throw the fast ones past their place.
     """
     along, size, size_last = products
+    more = 1.0 - 1.0 / pull
+    plain_along, plain_size = along + more * size_last, size + 2.0 * more * along + more * more * size_last
+    are_alike = plain_along > SAME_WAY * np.sqrt(plain_size * size_last)
     reach = 1.0 / pull - along / size_last
-    report[5] = 1.0 / min(max(reach, 1.0 / LARGEST_STRETCH_OF_STEP), 1.0)
+    is_short = 1.0 / LARGEST_STRETCH_OF_STEP <= reach < 1.0
+    report[5] = 1.0 / reach if are_alike and is_short else 1.0
     report[6] = np.sqrt(size / size_last)
 
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from vml_course.model.arrays import FloatArray, IntArray
 from vml_course.model.track import Sighting, Status, Track
+from vml_course.track.fading import without_fading
 from vml_course.track.scatter import vouched
 from vml_course.track.sweep import FIELDS
 
@@ -51,7 +52,8 @@ def assemble(
     time_s = stamp_s - stamp_s[0] if fps is None else (frame - frame[0]) / fps
     columns = {name: np.stack([getattr(row.sighting, name) for row in ordered]) for name in FIELDS}
     reference = np.stack([row.reference for row in ordered])
-    return with_scatter(Track(points, frame, time_s, settings=dict(settings), reference=reference, **columns))
+    track = Track(points, frame, time_s, settings=dict(settings), reference=reference, **columns)
+    return with_scatter(without_fading(track))
 
 
 def with_scatter(track: Track) -> Track:

@@ -34,6 +34,7 @@ from vml_course.track.records import UPRIGHT, Past, Reference, Rules
 from vml_course.track.renewal import composed, is_due, renewed
 
 BLURS_PX = (0.6, 1.0)  # tried where a block as it is cannot hold every freedom of the warp
+NOISY = 0.25  # of the texture's contrast
 RICHEST = next(iter(WARPS))
 LARGEST_CORNER_SIGMA_PX = 0.25  # beyond this a freedom of the warp is noise: take the next smaller warp
 _NOTHING = (float("nan"),) * 9
@@ -155,21 +156,22 @@ class Dic:
         plain = cut_patch(luma, (x, y), size)
         check_texture(plain.values, name, (x, y))
         noise = noise_grey(plain.values)
-        blur_px, warp = self._choose(luma, (x, y), noise)
+        blur_px, warp = self._choose(luma, (x, y), noise, float(plain.values.std()))
         patch = cut_patch(luma, (x, y), size, blur_px)
         template = build_template(patch, warp, blur_px=blur_px)
         sharp = Sharp(cut_surroundings(luma, (x, y), size, blur_px), size, warp, blur_px, None)
         sigma = np.sqrt(np.trace(template.solve[:2, :2])) * noise  # sqrt(2): both pictures are noisy; rms of x and y
         return Reference(template, patch.values.astype(np.float32), float(sigma), sharp)
 
-    def _choose(self, luma: Luma, point: tuple[float, float], noise: float) -> tuple[float, str]:
+    def _choose(self, luma: Luma, point: tuple[float, float], noise: float, contrast: float) -> tuple[float, str]:
         """Return the least blur that lets a block hold the richest warp, and that warp.
 
-        Where noise is as strong as the texture (contrast 17, noise 9), its gradients drown the block's; blurred by a
-        pixel, the block is followed all the same.
+        Where noise comes near the texture, its gradients drown the block's; blurred by a pixel, the block is followed
+        all the same. Where it does not, a block that holds no affine warp has no texture for one: a dot stays a dot.
         """
         size, held = int(self.block), []
-        for blur_px in (self.blur, *(blur_px for blur_px in BLURS_PX if blur_px > self.blur)):
+        blurs = BLURS_PX if noise > NOISY * contrast else ()
+        for blur_px in (self.blur, *(blur_px for blur_px in blurs if blur_px > self.blur)):
             patch = cut_patch(luma, point, size, blur_px)
             warp = choose_warp(significant_hessian(patch, noise, blur_px), noise, 0.5 * (size - 1))
             held.append((tuple(WARPS).index(warp), blur_px, warp))
