@@ -75,3 +75,27 @@ def test_gaps_stay_gaps_and_a_copied_block_is_not_exact():
 def test_a_clip_of_few_pictures_keeps_its_sigmas():
     assert np.isnan(scatter_px(way(4, 0.1))).all()
     assert np.array_equal(vouched(track_of(way(4, 0.1), 0.01)).sigma_px, np.full((4, 1), 0.01))
+
+
+def test_shifts_that_last_for_several_pictures_are_seen(rng_walk):
+    """A codec that copies most of a block shifts it for a while; one picture to the next shows little of that."""
+    found = scatter_px(rng_walk)
+    assert np.nanmedian(found) > 1.5 * np.median(np.abs(np.diff(rng_walk, n=4, axis=0))) / 0.6745 / np.sqrt(70)
+
+
+def test_a_fast_turn_is_not_taken_for_scatter():
+    """Pictures far apart see the curve itself: their differences do not alternate, and do not count."""
+    angle = 0.1 * np.arange(60)
+    rng = np.random.default_rng(5)
+    turning = 250 * np.column_stack([np.cos(angle), np.sin(angle)]) + rng.normal(0, 0.02, (60, 2))
+    assert np.nanmax(scatter_px(turning)) < 0.03
+
+
+@pytest.fixture
+def rng_walk():
+    """Places with errors of 0.03 px that are alike from picture to picture (AR(1), 0.8), on a parabola."""
+    rng, error = np.random.default_rng(3), np.zeros((120, 2))
+    for k in range(1, 120):
+        error[k] = 0.8 * error[k - 1] + 0.6 * rng.normal(0, 0.03, 2)
+    t = np.arange(120)[:, None]
+    return error + np.hstack([1.3 * t, 0.004 * t**2])

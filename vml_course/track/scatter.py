@@ -2,8 +2,10 @@
 
 A codec shifts whole blocks by fractions of a pixel, picture by picture, and one picture cannot tell that from
 movement. The way of a point through five pictures is a cubic to well below that, so their fourth differences hold
-nothing but scatter: 70 times its variance. Their size is found for each point and each stretch between two hits;
-the stretches are those that make the differences likeliest (a hit is a difference like no other).
+nothing but scatter: 70 times its variance. Where a codec's shifts last for several pictures, pictures further apart
+show more of it; they count as long as their differences look like noise. The size is found for each point and each
+stretch between two hits; the stretches are those that make the differences likeliest (a hit is a difference like no
+other).
 
 Half of a match's variance comes from its picture, half from the reference, and the latter shifts all pictures
 alike, so that it does not scatter. The scatter therefore takes the place of the first half only, where it is larger
@@ -24,6 +26,8 @@ FOURTH = np.array([1.0, -4.0, 6.0, -4.0, 1.0])
 LEAST = 6  # differences of a stretch that can vouch for anything
 GAIN = 40.0  # of twice the log-likelihood, that makes two stretches of one (neighbouring differences are alike)
 EXCESS = 1.25  # a robust standard deviation of 12 differences, two coordinates each, is 0.2 sure
+STRIDES = (1, 2, 3, 4)  # pictures: a codec that copies most of a block shifts it for several pictures alike
+NOISE_ALTERNATES = -0.6
 SMALLEST_PX = 2e-4  # scatter: whole grey levels and stopping the iterations leave as much
 LEAST_SIGMA_PX = 1e-3  # a codec that copies a block leaves no residual at all
 
@@ -53,13 +57,44 @@ def scatter_px(xy_px: FloatArray) -> FloatArray:
     scatter = np.full(len(xy_px), np.nan)
     if len(xy_px) < len(FOURTH):
         return scatter
-    four = np.stack([np.convolve(xy_px[:, c], FOURTH, mode="valid") for c in (0, 1)], axis=1) / np.sqrt(70.0)
-    for start, end in stretches(four, 0, len(xy_px)):
-        found = _inside(four, start, end)
-        if len(found) >= LEAST:
-            robust = float(np.median(np.abs(found))) / 0.6745
-            scatter[start:end] = robust * np.sqrt(1.0 + 2.0 / len(found))
+    for start, end in stretches(fourth_differences(xy_px), 0, len(xy_px)):
+        scatter[start:end] = _scatter_of(xy_px[start:end])
     return scatter
+
+
+def fourth_differences(xy_px: FloatArray, stride: int = 1) -> FloatArray:
+    """Return fourth differences of pictures `stride` apart, shape (n - 4 stride, 2); white noise keeps its size."""
+    taps = np.zeros(4 * stride + 1)
+    taps[::stride] = FOURTH
+    four = np.stack([np.convolve(xy_px[:, c], taps, mode="valid") for c in (0, 1)], axis=1)
+    return np.asarray(four / np.sqrt(70.0))
+
+
+def _scatter_of(xy_px: FloatArray) -> float:
+    """Return the scatter within one stretch; NaN when there are too few differences."""
+    best = float("nan")
+    for stride in STRIDES:
+        if len(xy_px) < 4 * stride + LEAST:
+            break
+        four = fourth_differences(xy_px, stride)
+        found = four[np.isfinite(four[:, 0])]
+        if len(found) < LEAST or (stride > 1 and not alternate(four, stride)):
+            continue
+        robust = float(np.median(np.abs(found))) / 0.6745 * float(np.sqrt(1.0 + 2.0 / len(found)))
+        if stride == 1 or not robust <= EXCESS * best:
+            best = robust
+    return best
+
+
+def alternate(four: FloatArray, stride: int) -> bool:
+    """Whether fourth differences are those of noise, not of the motion: one after the other they change sign.
+
+    Those of white noise have a correlation of -56 / 70 one stride apart, those of a smooth way one near 1.
+    """
+    one, other = four[stride:], four[:-stride]
+    both = np.isfinite(one[:, 0]) & np.isfinite(other[:, 0])
+    size = float(np.sqrt((one[both] ** 2).sum() * (other[both] ** 2).sum()))
+    return size > 0.0 and float((one[both] * other[both]).sum()) / size < NOISE_ALTERNATES
 
 
 def stretches(four: FloatArray, start: int, end: int) -> list[tuple[int, int]]:
@@ -103,8 +138,3 @@ def _split(sums: _Sums, start: int, end: int) -> list[tuple[int, int]]:
     if not costs[best] < together:
         return [(start, end)]
     return _split(sums, start, int(cuts[best])) + _split(sums, int(cuts[best]), end)
-
-
-def _inside(four: FloatArray, start: int, end: int) -> FloatArray:
-    part = four[start : max(start, end - 4)]
-    return np.asarray(part[np.isfinite(part[:, 0])])
