@@ -56,7 +56,7 @@ def test_the_video_tells_nothing_of_its_truth(tmp_path):
         assert word not in content
 
 
-class Broken(RuntimeError):
+class BrokenWriterError(RuntimeError):
     pass
 
 
@@ -74,7 +74,7 @@ def half_way(error):
     return write
 
 
-@pytest.mark.parametrize("error", [Broken, KeyboardInterrupt])
+@pytest.mark.parametrize("error", [BrokenWriterError, KeyboardInterrupt])
 @pytest.mark.parametrize("writer", FAILURES)
 def test_a_writer_that_fails_leaves_no_file_and_no_folder(tmp_path, monkeypatch, writer, error):
     monkeypatch.setattr(make_video_module, writer, half_way(error))
@@ -87,8 +87,8 @@ def test_a_writer_that_fails_leaves_no_file_and_no_folder(tmp_path, monkeypatch,
 def test_a_writer_that_fails_leaves_an_older_clip_as_it_was(tmp_path, monkeypatch, writer):
     make(tmp_path)
     older = {path.name: path.read_bytes() for path in tmp_path.iterdir()}
-    monkeypatch.setattr(make_video_module, writer, half_way(Broken))
-    with pytest.raises(Broken):
+    monkeypatch.setattr(make_video_module, writer, half_way(BrokenWriterError))
+    with pytest.raises(BrokenWriterError):
         make(tmp_path, "e=0.5")
     assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == older
 
