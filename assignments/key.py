@@ -98,6 +98,11 @@ def true_value(question: str, truth: Truth) -> float:
     return float(_TRUE[question](truth))
 
 
+def stick_px(truth: Truth, assignment: Assignment) -> tuple[float, ...]:
+    """Return where both ends of the known length are seen in the first frame: x1, y1, x2, y2."""
+    return (*truth.mark_px(assignment.stick.tail), *truth.mark_px(assignment.stick.head))
+
+
 def _along(impact: ImpactTruth, velocity_m_s: Any) -> float:
     return float(np.dot(velocity_m_s, impact.normal))
 
@@ -124,10 +129,9 @@ def _further(truth: Truth) -> dict[str, float]:
 
 
 def _stick(truth: Truth, assignment: Assignment) -> dict[str, float]:
-    """Return where both ends of the known length are seen."""
-    ends = zip("12", (assignment.stick.tail, assignment.stick.head), strict=True)
-    places = {number: truth.camera.to_px(np.array(truth.marks_m[mark])) for number, mark in ends}
-    return {f"stick_{axis}{number}_px": float(xy[k]) for number, xy in places.items() for k, axis in enumerate("xy")}
+    return dict(
+        zip(("stick_x1_px", "stick_y1_px", "stick_x2_px", "stick_y2_px"), stick_px(truth, assignment), strict=True)
+    )
 
 
 # ---------------------------------------------------------------- to keep

@@ -10,11 +10,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from assignments.errors import NotMeasuredError, NoVariantError
 from assignments.handout import FirstPicture, render_handout, write_handout
-from assignments.key import answer_key, true_value
+from assignments.key import answer_key, stick_px, true_value
 from assignments.model import AnswerKey, Assignment, Variant
 from assignments.variants import draw_variant, given_values
 from assignments.workbook import write_workbook
@@ -112,12 +110,6 @@ def measure(video: Path, truth: Truth, assignment: Assignment, stick_m: float) -
     options: dict[str, Any] = dict(assignment.solve)
     motion = calibrate(stick_px(truth, assignment), stick_m).apply(track)
     return impact_model(assignment.model).solve(motion, truth.given, ImpactOptions(**options))
-
-
-def stick_px(truth: Truth, assignment: Assignment) -> tuple[float, ...]:
-    """Return where both ends of the known length are seen: x1, y1, x2, y2."""
-    ends = (truth.marks_m[assignment.stick.tail], truth.marks_m[assignment.stick.head])
-    return tuple(truth.camera.to_px(np.array(ends)).ravel().tolist())
 
 
 def _variants(order: Order) -> Iterator[Variant]:

@@ -106,9 +106,10 @@ class TableError(InputError):
 class SceneRefusedError(VmlError):
     """A simulated impact is not what its parameters promise; it is not handed out."""
 
-    def __init__(self, scene: str, failed: Iterable[str]) -> None:
-        self.scene, self.failed = scene, tuple(failed)
-        super().__init__(f"{scene}: expected an honest impact, got failed checks: {'; '.join(self.failed)}.")
+    def __init__(self, scene: str, failed: Iterable[str], hint: str = "") -> None:
+        self.scene, self.failed, self.hint = scene, tuple(failed), hint
+        said = f"{scene}: expected an honest impact, got failed checks: {'; '.join(self.failed)}."
+        super().__init__(f"{said} {hint}".strip())
 
 
 # ---------------------------------------------------------------- tracking

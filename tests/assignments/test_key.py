@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import json
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from assignments.key import answer_key, from_json, to_json, true_value
+from assignments.key import answer_key, from_json, stick_px, to_json, true_value
 from assignments.load import load_assignment
 from assignments.variants import draw_variant, impact_numbers
 from vml_course.errors import InputError
@@ -21,6 +22,7 @@ from vml_course.synth.simulate import simulate
 KICK = load_assignment("soccer-kick")
 VARIANT = draw_variant(KICK, bytes(32), "s1")
 MEASURED = ImpactSolution("fixed-pivot", "joint", {"e": Estimate(0.7, 0.002), "I": Estimate(1.9, math.nan)}, 0.1, 24)
+MOVED_PX = 0.01  # what a hand does within one frame, while the shutter rolls down to the bar
 PROMISED = 1e-6  # relative: what a simulated impact keeps of its parameters
 
 
@@ -51,6 +53,18 @@ def test_speeds_of_the_foot_are_those_of_its_true_path(truth: Truth) -> None:
 def test_a_question_without_a_known_truth_is_refused(truth: Truth) -> None:
     with pytest.raises(InputError, match=r"question\.spin: expected one of px_per_m, .*, got 'spin'"):
         true_value("spin", truth)
+
+
+def test_the_stick_is_where_a_bent_and_rolling_picture_from_a_hand_shows_it() -> None:
+    bent = {"distortion": 0.08, "rolling_shutter": 0.7, "shake_px": 3.0}
+    scene, square = scene_class(KICK.scene)(**VARIANT.parameters), Camera(**VARIANT.camera)
+    shaken = simulate(scene, replace(square, **bent), VARIANT.seed)
+    ends = [shaken.mark_px(name) for name in (KICK.stick.tail, KICK.stick.head)]
+    assert stick_px(shaken, KICK) == pytest.approx(np.ravel(ends))
+    kept = answer_key(KICK, VARIANT, shaken, None, "0" * 64).truth
+    assert [kept[f"stick_{axis}{end}_px"] for end in "12" for axis in "xy"] == pytest.approx(np.ravel(ends))
+    lens_only = shaken.camera.to_px(np.array([shaken.marks_m[name] for name in (KICK.stick.tail, KICK.stick.head)]))
+    assert np.abs(lens_only - ends).max() > MOVED_PX
 
 
 def test_a_key_survives_being_kept(truth: Truth) -> None:

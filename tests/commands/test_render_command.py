@@ -5,6 +5,8 @@ import json
 import pytest
 
 from vml_course.cli import run
+from vml_course.model.quantity import quantities_of
+from vml_course.synth.scene import scene_class, scene_names
 
 SMALL = [
     part
@@ -63,3 +65,25 @@ def test_a_mistake_is_one_line_and_exit_code_2(arguments, words, capsys, tmp_pat
     assert words in said
     assert "\n" not in said
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("name", scene_names())
+def test_every_scene_refuses_in_one_line_and_leaves_no_folder(name, capsys, tmp_path):
+    mass = next((item for item in quantities_of(scene_class(name)).values() if item.unit == "kg"), None)
+    wrong = [
+        ("px_per_m=4000", "outside the picture, px is "),
+        ("width_px=641", "width_px: expected an even number of pixels"),
+        ("background=beach", "background: expected one of "),
+        *(
+            [(f"{mass.name}=-1", f"{mass.name} ({mass.symbol}): expected {mass.range_text}, got -1 kg.")]
+            if mass
+            else []
+        ),
+        *([("e=1.01", "restitution (e): expected 0.05 to 1, got 1.01.")] if "e" in scene_class(name).unknowns else []),
+    ]
+    for text, words in wrong:
+        assert run(["render", name, "--set", text, "-o", str(tmp_path / "deep" / "clip")]) == 2
+        said = capsys.readouterr().err.strip()
+        assert words in said
+        assert "\n" not in said
+        assert not list(tmp_path.iterdir())

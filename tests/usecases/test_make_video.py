@@ -1,13 +1,16 @@
 """A made video holds the pictures of its truth and nothing of its numbers."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
-from vml_course.errors import InputError, SceneRefusedError, UnknownNameError
+from vml_course.errors import FileFormatError, InputError, SceneRefusedError, UnknownNameError
 from vml_course.io.truth import read_truth_csv, read_truth_json
 from vml_course.io.video import probe, read_frames
 from vml_course.synth.render import render
 from vml_course.synth.settings import read_settings
+from vml_course.usecases import make_video as make_video_module
 from vml_course.usecases.make_video import make_video
 
 SMALL = ["fps=240", "width_px=640", "height_px=360", "px_per_m=250", "origin_x_px=210", "origin_y_px=100"]
@@ -51,6 +54,82 @@ def test_the_video_tells_nothing_of_its_truth(tmp_path):
     content = video.video.read_bytes()
     for word in (b"soccer", b"0.6125", b"987654", b"vml", b"restitution", str(tmp_path).encode()):
         assert word not in content
+
+
+class BrokenWriterError(RuntimeError):
+    pass
+
+
+FILES = ["truth.csv", "truth.json", "video.mp4"]
+FAILURES = ["write_video", "write_truth_json", "write_truth_csv"]
+
+
+def half_way(error):
+    """A writer that leaves half a file behind and fails, as a full disk or Ctrl-C does."""
+
+    def write(path, *_):
+        path.write_bytes(b"half")
+        raise error
+
+    return write
+
+
+@pytest.mark.parametrize("error", [BrokenWriterError, KeyboardInterrupt])
+@pytest.mark.parametrize("writer", FAILURES)
+def test_a_writer_that_fails_leaves_no_file_and_no_folder(tmp_path, monkeypatch, writer, error):
+    monkeypatch.setattr(make_video_module, writer, half_way(error))
+    with pytest.raises(error):
+        make(tmp_path / "deep" / "kick")
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("writer", FAILURES)
+def test_a_writer_that_fails_leaves_an_older_clip_as_it_was(tmp_path, monkeypatch, writer):
+    make(tmp_path)
+    older = {path.name: path.read_bytes() for path in tmp_path.iterdir()}
+    monkeypatch.setattr(make_video_module, writer, half_way(BrokenWriterError))
+    with pytest.raises(BrokenWriterError):
+        make(tmp_path, "e=0.5")
+    assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == older
+
+
+def test_pictures_that_end_half_way_leave_nothing(tmp_path):
+    def tell(done, _):
+        if done == 5:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        make(tmp_path / "kick", progress=tell)
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("held", FILES)
+@pytest.mark.parametrize("moment", ["moved aside", "put in place"])
+def test_an_older_file_that_another_program_holds_stops_all_three(tmp_path, monkeypatch, held, moment):
+    make(tmp_path)
+    older = {path.name: path.read_bytes() for path in tmp_path.iterdir()}
+    replace = Path.replace
+
+    def refusing(self, target):
+        if (self if moment == "moved aside" else Path(target)).name == held and not refused:
+            refused.append(held)
+            raise PermissionError(13, "Permission denied", str(self))
+        return replace(self, target)
+
+    refused = []
+    monkeypatch.setattr(Path, "replace", refusing)
+    with pytest.raises(FileFormatError, match="expected a file that may be written, got no permission"):
+        make(tmp_path, "e=0.5")
+    assert refused
+    assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == older
+
+
+def test_a_file_in_the_place_of_the_folder_is_told_in_one_line(tmp_path):
+    (tmp_path / "kick").write_text("notes")
+    with pytest.raises(FileFormatError, match="kick: expected a folder to write into") as caught:
+        make(tmp_path / "kick")
+    assert "\n" not in str(caught.value)
+    assert (tmp_path / "kick").read_text() == "notes"
 
 
 def test_progress_counts_the_pictures(tmp_path):

@@ -23,7 +23,7 @@ def replacing(path: Path) -> Iterator[Path]:
         When the file cannot be replaced, for example because it is open in Excel.
     """
     check_folder(path)
-    temporary = path.with_name(f".{path.stem}-{secrets.token_hex(4)}{path.suffix}")
+    temporary = _beside(path)
     try:
         yield temporary
         temporary.replace(path)
@@ -34,6 +34,84 @@ def replacing(path: Path) -> Iterator[Path]:
     finally:
         with suppress(OSError):  # where it could not be made, it need not be removed
             temporary.unlink(missing_ok=True)
+
+
+@contextmanager
+def replacing_together(*paths: Path) -> Iterator[tuple[Path, ...]]:
+    """Give temporary names beside files of one folder; all take their places when the block ends well, or none does.
+
+    Older files are moved aside first, so that one which is held by another program stops all.
+
+    Raises
+    ------
+    FileMissingError, FileFormatError
+        As `replacing`.
+    """
+    for path in paths:
+        check_folder(path)
+    temporaries = tuple(map(_beside, paths))
+    try:
+        yield temporaries
+        _take_places(temporaries, paths)
+    except PermissionError as error:
+        held = str(error.filename or paths[0].parent)
+        raise FileFormatError(
+            held, "a file that may be written", "no permission", "Close it in other programs."
+        ) from error
+    finally:
+        for temporary in temporaries:
+            with suppress(OSError):
+                temporary.unlink(missing_ok=True)
+
+
+def _take_places(temporaries: Iterable[Path], paths: tuple[Path, ...]) -> None:
+    older, placed = {path: _beside(path) for path in paths if path.exists()}, []
+    try:
+        for path, aside in older.items():
+            path.replace(aside)
+        for temporary, path in zip(temporaries, paths, strict=True):
+            temporary.replace(path)
+            placed.append(path)
+    except BaseException:
+        for path in placed:
+            path.unlink(missing_ok=True)
+        for path, aside in older.items():
+            if aside.exists():
+                aside.replace(path)
+        raise
+    for aside in older.values():
+        aside.unlink(missing_ok=True)
+
+
+def _beside(path: Path) -> Path:
+    return path.with_name(f".{path.stem}-{secrets.token_hex(4)}{path.suffix}")
+
+
+@contextmanager
+def making_folder(folder: Path) -> Iterator[None]:
+    """Make a folder and its parents for a block; where the block fails, those that were made are removed again.
+
+    Raises
+    ------
+    FileFormatError
+        When it cannot be made.
+    """
+    missing = [path for path in (folder, *folder.parents) if not path.exists()]
+    try:
+        _make(folder)
+        yield
+    except BaseException:
+        for path in missing:
+            with suppress(OSError):  # never one that holds something
+                path.rmdir()
+        raise
+
+
+def _make(folder: Path) -> None:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise FileFormatError(str(folder), "a folder to write into", error.strerror or str(error)) from error
 
 
 def check_folder(path: Path) -> None:

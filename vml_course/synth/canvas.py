@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from vml_course.model.camera import Camera
 from vml_course.synth.texture import Plane
 
 Colour = tuple[float, float, float]
@@ -102,6 +103,12 @@ def make_canvas(shape: tuple[int, int], samples_per_m: float, origin: tuple[floa
         samples_per_m=samples_per_m,
         origin=origin,
     )
+
+
+def camera_canvas(camera: Camera) -> Canvas:
+    """Return an empty canvas as large as a camera's picture, at its scale, as a square camera sees it."""
+    width, height = camera.size_px
+    return make_canvas((height, width), camera.px_per_m, (camera.origin_x_px, camera.origin_y_px))
 
 
 def sheet(reach_m: tuple[float, float, float, float], px_per_m: float, oversample: int) -> Canvas:

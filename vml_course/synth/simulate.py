@@ -29,6 +29,8 @@ from vml_course.synth.run import Contact, Run
 from vml_course.synth.scene import Scene
 from vml_course.synth.shake import wander
 
+OUT_OF_SIGHT = "Lower px_per_m, move origin_x_px or origin_y_px, or widen the picture."
+
 
 def simulate(scene: Scene, camera: Camera, seed: int, *, refine: int = 1) -> Truth:
     """Simulate a scene as a camera sees it.
@@ -93,9 +95,9 @@ def read_impact(law: Law, run: Run, contact: Contact, clock: Clock) -> ImpactTru
 
 def _hold(scene: Scene, checks: Iterable[Check]) -> tuple[Check, ...]:
     held = tuple(checks)
-    failed = [f"{check.name} is {check.value:.3g} (limit {check.limit:g})" for check in held if not check.passed]
+    failed = [f"{check.name} is {check.value:.4g} (limit {check.limit:g})" for check in held if not check.passed]
     if failed:
-        raise SceneRefusedError(scene.name, failed)
+        raise SceneRefusedError(scene.name, failed, OUT_OF_SIGHT if "outside the picture" in str(failed) else "")
     return held
 
 

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from vml_course.io.files import making_folder, replacing_together
 from vml_course.io.truth import write_truth_csv, write_truth_json
 from vml_course.io.video import write_video
 from vml_course.model.camera import Camera
@@ -32,6 +33,8 @@ def make_video(
 ) -> MadeVideo:
     """Write `video.mp4` (or `.avi`), `truth.json` and `truth.csv` into a folder, in place of an older clip there.
 
+    The three appear together or, where anything fails, not at all; an older clip then stays as it was.
+
     The video itself holds nothing of the truth, neither in its name nor in its metadata.
 
     Parameters
@@ -49,14 +52,19 @@ def make_video(
     ------
     SceneRefusedError
         Before anything is written.
+    FileFormatError
+        When the folder cannot be made or written into, or an older file is open elsewhere.
     """
     truth = replace(simulate(scene, camera, seed), recording=recording)
-    folder.mkdir(parents=True, exist_ok=True)
     video = folder / f"video.{recording.format}"
-    pictures = _counted(render(truth, recording), len(truth.time_s), progress)
-    write_video(video, pictures, recording.file_fps or camera.fps, int(recording.crf), recording.stored_codec)
-    write_truth_json(folder / "truth.json", truth)
-    write_truth_csv(folder / "truth.csv", truth)
+    with (
+        making_folder(folder),
+        replacing_together(video, folder / "truth.json", folder / "truth.csv") as (film, all_of_it, table),
+    ):
+        pictures = _counted(render(truth, recording), len(truth.time_s), progress)
+        write_video(film, pictures, recording.file_fps or camera.fps, int(recording.crf), recording.stored_codec)
+        write_truth_json(all_of_it, truth)
+        write_truth_csv(table, truth)
     _remove_older(folder, recording.format)
     return MadeVideo(video, truth)
 

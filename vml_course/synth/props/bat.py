@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from vml_course.synth.canvas import Canvas, sheet
-from vml_course.synth.props.surface import speckle
+from vml_course.synth.props.prints import Print
+from vml_course.synth.props.surface import draw_mark, speckle
 from vml_course.synth.props.target import draw_target
 from vml_course.synth.shapes import both, box, disc, tapered, union
 from vml_course.synth.sprite import OVERSAMPLE, Sprite, make_sprite
@@ -31,7 +32,7 @@ class Bat:
     barrel_m: float
 
 
-def draw_bat(bat: Bat, px_per_m: float, seed: int) -> Sprite:
+def draw_bat(bat: Bat, px_per_m: float, printed: Print) -> Sprite:
     """Draw a bat whose hands are its origin; a steel clamp holds it there."""
     wide = max(CLAMP_M, bat.barrel_m) + 0.005
     on = sheet((wide, wide, bat.length_m + TIP_M + bat.barrel_m, CLAMP_M + 0.02), px_per_m, OVERSAMPLE)
@@ -40,12 +41,14 @@ def draw_bat(bat: Bat, px_per_m: float, seed: int) -> Sprite:
     on.lighten(_rings(on, bat), wood)
     for low, high, rgb in ((-0.44, -0.1, TAPE), (-0.52, -0.5, BAND), (-0.56, -0.54, BAND)):
         on.fill(both(wood, box(on, (-1.0, low * bat.length_m), (1.0, high * bat.length_m))), rgb)
+    printed.draw_stripes(on, wood, -0.56 * bat.length_m)
     clamp = disc(on, (0.0, 0.0), CLAMP_M)
     on.fill(clamp, STEEL)
     outline = union(wood, clamp)
-    speckle(on, seed, "bat", GRAIN_GREY, outline, 1.2)
-    for place in ((0.0, 0.0), (0.0, -bat.length_m)):
-        draw_target(on, place, OVERSAMPLE)
+    speckle(on, printed, "bat", GRAIN_GREY, outline, 1.2)
+    if printed.has_targets:
+        draw_target(on, (0.0, 0.0), OVERSAMPLE)
+    draw_mark(on, printed, (0.0, -bat.length_m), bat.barrel_m)
     return make_sprite(on)
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from vml_course.synth.canvas import sheet
+from vml_course.synth.props.prints import Print
 from vml_course.synth.props.surface import draw_card, shade, speckle
 from vml_course.synth.props.target import draw_target
 from vml_course.synth.shapes import both, box, disc, tapered, union
@@ -47,7 +48,7 @@ class Catcher:
         return self.depth_m + self.mark_m + self.card_m + 0.008
 
 
-def draw_catcher(catcher: Catcher, px_per_m: float, seed: int) -> Sprite:
+def draw_catcher(catcher: Catcher, px_per_m: float, printed: Print) -> Sprite:
     """Draw a pendulum whose pivot is its origin; the tunnel opens to the left and ends in putty."""
     half, depth, pellet = catcher.half_m, catcher.depth_m, catcher.pellet_m
     top = -depth + pellet + 0.03
@@ -59,17 +60,19 @@ def draw_catcher(catcher: Catcher, px_per_m: float, seed: int) -> Sprite:
     body = box(on, (-half, -catcher.bottom_m), (half, top))
     on.fill(body, FRAME)
     on.fill(box(on, (-half + 0.006, -catcher.bottom_m + 0.006), (half - 0.006, top - 0.006)), BOX)
+    printed.draw_stripes(on, body, top)
     tunnel = box(on, (-half, -depth - 1.12 * pellet), (1.15 * pellet, -depth + 1.12 * pellet))
     on.fill(tunnel, TUNNEL)
     on.fill(both(tunnel, -disc(on, (-0.12 * pellet, -depth), 1.06 * pellet), _right_of(on.x_m, on.y_m)), PUTTY)
     outline = union(arms, hub, body)
-    speckle(on, seed, "catcher", GRAIN_GREY, outline, 1.2)
-    draw_card(on, (0.0, -depth - catcher.mark_m), catcher.card_m, seed, "bob")
-    draw_target(on, (0.0, 0.0), OVERSAMPLE, 0.016)
+    speckle(on, printed, "catcher", GRAIN_GREY, outline, 1.2)
+    draw_card(on, (0.0, -depth - catcher.mark_m), catcher.card_m, printed, "bob")
+    if printed.has_targets:
+        draw_target(on, (0.0, 0.0), OVERSAMPLE, 0.016)
     return make_sprite(on)
 
 
-def draw_tennis_ball(radius_m: float, px_per_m: float, seed: int) -> Sprite:
+def draw_tennis_ball(radius_m: float, px_per_m: float, printed: Print) -> Sprite:
     """Draw a felt ball with its white seam, its centre the origin."""
     on = sheet((radius_m,) * 4, px_per_m, OVERSAMPLE)
     rim = disc(on, (0.0, 0.0), radius_m)
@@ -77,7 +80,7 @@ def draw_tennis_ball(radius_m: float, px_per_m: float, seed: int) -> Sprite:
     for side in (-1.0, 1.0):
         bow = np.abs(disc(on, (side * 1.15 * radius_m, side * 0.5 * radius_m), 0.9 * radius_m)) - 0.06 * radius_m
         on.fill(both(rim, np.asarray(bow, np.float32)), SEAM)
-    speckle(on, seed, "felt", 30.0, rim, 1.2)
+    speckle(on, printed, "felt", 30.0, rim, 1.2)
     on.lighten(shade(on, (0.0, 0.0), radius_m), rim)
     return make_sprite(on)
 

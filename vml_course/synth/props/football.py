@@ -21,10 +21,9 @@ GOLDEN = (1 + 5**0.5) / 2
 FACE_DISTANCE = {"pentagon": 2.32744, "hexagon": 2.26728}  # from the centre, in edge lengths
 SEAM_WIDTH = 0.012
 GRAIN_GREY = 15.0
-USUAL = Print()
 
 
-def draw_football(radius_m: float, px_per_m: float, seed: int, printed: Print = USUAL) -> Sprite:
+def draw_football(radius_m: float, px_per_m: float, printed: Print) -> Sprite:
     """Draw a ball whose centre is its origin."""
     on = sheet((radius_m,) * 4, px_per_m, OVERSAMPLE)
     rim = disc(on, (0.0, 0.0), radius_m)
@@ -33,7 +32,7 @@ def draw_football(radius_m: float, px_per_m: float, seed: int, printed: Print = 
     on.fill(np.maximum(rim, seam), SEAM)
     on.fill(np.maximum(rim, pentagon), DARK)
     on.fill(np.maximum(rim, -(rim + 0.02 * radius_m)), RIM)
-    on.lighten(printed.speckle(on, seed, "ball", GRAIN_GREY, OVERSAMPLE), rim)
+    on.lighten(printed.speckle(on, "ball", GRAIN_GREY, OVERSAMPLE), rim)
     on.lighten(_shade(on, radius_m), rim)
     return make_sprite(on)
 

@@ -8,7 +8,8 @@ import numpy as np
 
 from vml_course.synth.canvas import Canvas, sheet
 from vml_course.synth.props.lettering import write
-from vml_course.synth.props.surface import draw_card, speckle
+from vml_course.synth.props.prints import Print
+from vml_course.synth.props.surface import draw_card, draw_mark, speckle
 from vml_course.synth.props.target import draw_target
 from vml_course.synth.shapes import box, disc, tapered, union
 from vml_course.synth.sprite import OVERSAMPLE, Sprite, make_sprite
@@ -30,7 +31,7 @@ class Hammer:
     head_m: float
 
 
-def draw_hammer(hammer: Hammer, px_per_m: float, seed: int) -> Sprite:
+def draw_hammer(hammer: Hammer, px_per_m: float, printed: Print) -> Sprite:
     """Draw a hammer that hangs from its pivot, the origin; its face looks to the right."""
     head, length = hammer.head_m, hammer.length_m
     on = sheet((3.2 * head, max(HUB_M, head) + 0.005, length + 1.25 * head, HUB_M + 0.005), px_per_m, OVERSAMPLE)
@@ -44,13 +45,15 @@ def draw_hammer(hammer: Hammer, px_per_m: float, seed: int) -> Sprite:
     face = disc(on, (0.0, -length), head)
     on.fill(face, STEEL)
     outline = union(handle, hub, back, tail, face)
-    speckle(on, seed, "hammer", GRAIN_GREY, outline, 1.2)
-    for place in ((0.0, 0.0), (0.0, -length)):
-        draw_target(on, place, OVERSAMPLE, 0.016)
+    printed.draw_stripes(on, union(handle, back, tail, face), -HUB_M)
+    speckle(on, printed, "hammer", GRAIN_GREY, outline, 1.2)
+    if printed.has_targets:
+        draw_target(on, (0.0, 0.0), OVERSAMPLE, 0.016)
+    draw_mark(on, printed, (0.0, -length), head, 0.016)
     return make_sprite(on)
 
 
-def draw_block(half_m: tuple[float, float], px_per_m: float, seed: int) -> Sprite:
+def draw_block(half_m: tuple[float, float], px_per_m: float, printed: Print) -> Sprite:
     """Draw a wooden block of half-width and half-height, its centre the origin, with a card in the middle."""
     (wide, high) = half_m
     on = sheet((wide, wide, high, high), px_per_m, OVERSAMPLE)
@@ -59,9 +62,10 @@ def draw_block(half_m: tuple[float, float], px_per_m: float, seed: int) -> Sprit
     inner = box(on, (-wide + 0.004, -high + 0.004), (wide - 0.004, high - 0.004))
     on.fill(inner, OAK)
     on.lighten(_rings(on), inner)
-    speckle(on, seed, "block", GRAIN_GREY, body)
+    printed.draw_stripes(on, inner, high)
+    speckle(on, printed, "block", GRAIN_GREY, body)
     write(on, "m", (0.68 * wide, 0.62 * high), 0.26 * high, INK)
-    draw_card(on, (0.0, 0.0), 0.58 * min(wide, high), seed, "block card")
+    draw_card(on, (0.0, 0.0), 0.58 * min(wide, high), printed, "block card")
     return make_sprite(on)
 
 

@@ -29,7 +29,6 @@ SLEEVE_TO = 0.17  # of the way from knee to foot
 SOCK_FROM = 0.24  # of the way from knee to foot
 GRAIN_GREY = 25.0
 LOGO_OF_SHIN = 1.25
-USUAL = Print()
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,7 +42,7 @@ class Leg:
     shin_at: float
 
 
-def draw_leg(leg: Leg, px_per_m: float, seed: int, printed: Print = USUAL, *, plain_knee: bool = False) -> Sprite:
+def draw_leg(leg: Leg, px_per_m: float, printed: Print, *, plain_knee: bool = False) -> Sprite:
     """Draw a leg whose knee is its origin.
 
     Targets sit where something else does not show the place: none on a plain knee or a plain leg, and none on a
@@ -58,7 +57,7 @@ def draw_leg(leg: Leg, px_per_m: float, seed: int, printed: Print = USUAL, *, pl
     _draw_boot(on, leg, boot)
     outline = union(limb, boot)
     on.lighten(_roundness(on, leg), outline)
-    speckle = printed.speckle(on, seed, "leg", GRAIN_GREY, OVERSAMPLE)
+    speckle = printed.speckle(on, "leg", GRAIN_GREY, OVERSAMPLE)
     below_knee = box(on, (-1.0, -10.0), (1.0, -SLEEVE_TO * leg.length_m))
     on.lighten(speckle, both(outline, below_knee) if plain_knee else outline)
     shin = (0.0, -leg.shin_at * leg.length_m)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from vml_course.synth.canvas import Canvas, Colour, sheet
+from vml_course.synth.props.prints import Print
 from vml_course.synth.props.surface import draw_card, speckle
 from vml_course.synth.shapes import Point, both, box, disc
 from vml_course.synth.sprite import OVERSAMPLE, Sprite, make_sprite
@@ -18,7 +19,7 @@ RED = (186.0, 52.0, 44.0)
 GRAIN_GREY = 24.0
 
 
-def draw_door(length_m: float, half_m: float, card_m: float, px_per_m: float, seed: int) -> Sprite:
+def draw_door(length_m: float, half_m: float, card_m: float, px_per_m: float, printed: Print) -> Sprite:
     """Draw a door from above that reaches down from its hinge, the origin, to the card at its edge and a bit beyond."""
     wide, beyond = card_m + 0.005, card_m + 0.01
     on = sheet((wide, wide, length_m + beyond, card_m + 0.01), px_per_m, OVERSAMPLE)
@@ -26,13 +27,14 @@ def draw_door(length_m: float, half_m: float, card_m: float, px_per_m: float, se
     on.fill(leaf, LEAF_EDGE)
     inner = box(on, (-half_m + 0.005, -length_m - 0.6 * card_m + 0.005), (half_m - 0.005, 0.6 * card_m - 0.005))
     on.fill(inner, PAINT)
-    speckle(on, seed, "door", GRAIN_GREY, leaf)
+    printed.draw_stripes(on, inner, 0.0)
+    speckle(on, printed, "door", GRAIN_GREY, leaf)
     for at, name in (((0.0, 0.0), "hinge"), ((0.0, -length_m), "edge")):
-        draw_card(on, at, card_m, seed, name)
+        draw_card(on, at, card_m, printed, name)
     return make_sprite(on)
 
 
-def draw_rod(marks_m: tuple[Point, Point], half_m: float, reach_m: float, px_per_m: float, seed: int) -> Sprite:
+def draw_rod(marks_m: tuple[Point, Point], half_m: float, reach_m: float, px_per_m: float, printed: Print) -> Sprite:
     """Draw an upright wooden rod, its centre the origin, as long as twice `reach_m`, with a card at two marks."""
     wide, card_m = half_m + 0.006, 0.94 * half_m
     on = sheet((wide, wide, reach_m, reach_m), px_per_m, OVERSAMPLE)
@@ -43,9 +45,10 @@ def draw_rod(marks_m: tuple[Point, Point], half_m: float, reach_m: float, px_per
         _band(on, body, share * reach_m, BRASS)
     on.fill(both(body, box(on, (-0.004, -0.02), (0.004, 0.02))), RED)
     on.fill(both(body, box(on, (-0.02, -0.004), (0.02, 0.004))), RED)
-    speckle(on, seed, "rod", GRAIN_GREY, body)
+    printed.draw_stripes(on, body, reach_m)
+    speckle(on, printed, "rod", GRAIN_GREY, body)
     for place, name in zip(marks_m, ("tail", "tip"), strict=True):
-        draw_card(on, place, card_m, seed, name)
+        draw_card(on, place, card_m, printed, name)
     return make_sprite(on)
 
 

@@ -19,18 +19,39 @@ STRIPE_M = 0.036  # from one stripe to the next: two of them in the block of a t
 
 @dataclass(frozen=True, slots=True)
 class Print:
-    """What is printed: `contrast` and `size_px` are the speckle's, as multiples of the usual and of a pixel."""
+    """What is printed on all bodies of a clip.
 
+    Attributes
+    ----------
+    seed : int
+        Which speckle.
+    kind : str
+        One of `PRINTS`.
+    contrast, size_px : float
+        Of the speckle, as multiples of the usual and of a pixel.
+    """
+
+    seed: int
     kind: str = "speckle"
     contrast: float = 1.0
     size_px: float = 1.0
 
-    def speckle(self, on: Canvas, seed: int, name: str, grey: float, samples_per_px: float) -> Plane:
-        """Return the speckle's grey levels; nothing where something else is printed."""
+    def speckle(self, on: Canvas, name: str, grey: float, samples_per_px: float, size_px: float = 1.0) -> Plane:
+        """Return the grey levels of a body's speckle; nothing where something else is printed."""
         shape = (on.opacity.shape[0], on.opacity.shape[1])
         if self.kind != "speckle":
             return np.zeros(shape, np.float32)
-        return grey * self.contrast * grain(seed, name, shape, samples_per_px, self.size_px)
+        return grey * self.contrast * grain(self.seed, name, shape, samples_per_px, size_px * self.size_px)
+
+    @property
+    def has_targets(self) -> bool:
+        """Whether targets show the places that nothing else would; nothing does on plain bodies."""
+        return self.kind != "plain"
+
+    def draw_stripes(self, on: Canvas, inside_m: Plane, from_m: float) -> None:
+        """Draw dark stripes below a height, where a distance is negative, and only where stripes are printed."""
+        if self.kind == "stripes":
+            on.fill(both(inside_m, stripes(on, from_m)), INK)
 
 
 def draw_logo(on: Canvas, centre: Point, height_m: float) -> None:

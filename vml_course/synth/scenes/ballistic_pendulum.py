@@ -13,14 +13,16 @@ from vml_course.model.quantity import quantity
 from vml_course.synth.laws.embed import Embedding
 from vml_course.synth.look import Look
 from vml_course.synth.props.catcher import HUB_M, Catcher, draw_catcher, draw_tennis_ball
-from vml_course.synth.props.lab import draw_stand, draw_wall
-from vml_course.synth.scene import Marker, Scene
+from vml_course.synth.props.scale import draw_bar
+from vml_course.synth.props.stand import draw_stand
+from vml_course.synth.scene import Marker
+from vml_course.synth.views import SideView
 
 MARK_BELOW_BALL_M = 0.045
 
 
 @dataclass(frozen=True)
-class BallisticPendulum(Scene):
+class BallisticPendulum(SideView):
     """The pivot is the world's origin; the ball stops straight below it, `arm_m` deep."""
 
     name: ClassVar[str] = "ballistic_pendulum"
@@ -101,13 +103,14 @@ class BallisticPendulum(Scene):
         """Draw the room with the stand, the catcher and the ball."""
         catcher = self._catcher()
         floor = -(catcher.bottom_m + 0.08)
-        room = draw_wall(camera, seed, self.marks_m(), floor)
+        room, printed = self.room(camera, seed, floor), self.printed(seed)
+        draw_bar(room, self.marks_m())
         draw_stand(room, (0.0, 0.0), (0.42, floor + 0.02))
         return Look(
             background=room,
             sprites={
-                "pendulum": draw_catcher(catcher, camera.px_per_m, seed),
-                "pellet": draw_tennis_ball(self.pellet_radius_m, camera.px_per_m, seed),
+                "pendulum": draw_catcher(catcher, camera.px_per_m, printed),
+                "pellet": draw_tennis_ball(self.pellet_radius_m, camera.px_per_m, printed),
             },
         )
 

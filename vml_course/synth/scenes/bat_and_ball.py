@@ -14,15 +14,17 @@ from vml_course.synth.laws.struck import Struck
 from vml_course.synth.look import Look
 from vml_course.synth.props.balls import draw_softball
 from vml_course.synth.props.bat import CLAMP_M, Bat, draw_bat
-from vml_course.synth.props.lab import draw_stand, draw_wall
-from vml_course.synth.scene import Marker, Scene
+from vml_course.synth.props.scale import draw_bar
+from vml_course.synth.props.stand import draw_stand
+from vml_course.synth.scene import Marker
+from vml_course.synth.views import SideView
 
 BAR_BELOW_BARREL_M = 0.18
 FLOOR_BELOW_BARREL_M = 0.14
 
 
 @dataclass(frozen=True)
-class BatAndBall(Scene):
+class BatAndBall(SideView):
     """The pivot of the rig, where the hands would be, is the world's origin; the bat hangs down at the impact."""
 
     name: ClassVar[str] = "bat_and_ball"
@@ -108,13 +110,14 @@ class BatAndBall(Scene):
     def look(self, camera: Camera, seed: int) -> Look:
         """Draw the room with the rig's post, the bat and the ball."""
         floor = -(self.barrel_distance_m + FLOOR_BELOW_BARREL_M)
-        room = draw_wall(camera, seed, self.marks_m(), floor)
+        room, printed = self.room(camera, seed, floor), self.printed(seed)
+        draw_bar(room, self.marks_m())
         draw_stand(room, (0.0, 0.0), (-0.16, floor + 0.02))
         bat = Bat(self.barrel_distance_m, self.barrel_radius_m)
         return Look(
             background=room,
             sprites={
-                "bat": draw_bat(bat, camera.px_per_m, seed),
-                "ball": draw_softball(self.ball_diameter_m / 2, camera.px_per_m, seed),
+                "bat": draw_bat(bat, camera.px_per_m, printed),
+                "ball": draw_softball(self.ball_diameter_m / 2, camera.px_per_m, printed),
             },
         )

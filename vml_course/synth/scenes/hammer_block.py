@@ -12,14 +12,16 @@ from vml_course.synth.laws.pinned import PinnedStrike
 from vml_course.synth.laws.struck import Struck
 from vml_course.synth.look import Look
 from vml_course.synth.props.hammer import HUB_M, Hammer, draw_block, draw_hammer, draw_rail
-from vml_course.synth.props.lab import draw_stand, draw_wall
-from vml_course.synth.scene import Marker, Scene
+from vml_course.synth.props.scale import draw_bar
+from vml_course.synth.props.stand import draw_stand
+from vml_course.synth.scene import Marker
+from vml_course.synth.views import SideView
 
 BAR_BELOW_HEAD_M = 0.2
 
 
 @dataclass(frozen=True)
-class HammerBlock(Scene):
+class HammerBlock(SideView):
     """The hammer's pivot is the world's origin; it hangs down at the impact, at the height of the block's centre."""
 
     name: ClassVar[str] = "hammer_block"
@@ -108,7 +110,8 @@ class HammerBlock(Scene):
         """Draw the room with stand and bench, the hammer and the block."""
         bench = -(self.hammer_length_m + self.block_half_height_m)
         floor = -(self.hammer_length_m + BAR_BELOW_HEAD_M - 0.05)
-        room = draw_wall(camera, seed, self.marks_m(), floor)
+        room, printed = self.room(camera, seed, floor), self.printed(seed)
+        draw_bar(room, self.marks_m())
         draw_stand(room, (0.0, 0.0), (-0.42, floor + 0.02))
         draw_rail(room, bench, self.head_radius_m, floor)
         half = self.block_half_width_m, self.block_half_height_m
@@ -116,7 +119,7 @@ class HammerBlock(Scene):
         return Look(
             background=room,
             sprites={
-                "hammer": draw_hammer(hammer, camera.px_per_m, seed),
-                "block": draw_block(half, camera.px_per_m, seed),
+                "hammer": draw_hammer(hammer, camera.px_per_m, printed),
+                "block": draw_block(half, camera.px_per_m, printed),
             },
         )

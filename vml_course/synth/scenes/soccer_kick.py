@@ -14,12 +14,13 @@ from vml_course.synth.laws.pinned import PinnedStrike
 from vml_course.synth.laws.soft import SoftStrike, soften
 from vml_course.synth.laws.struck import Struck
 from vml_course.synth.look import Look
-from vml_course.synth.props.backgrounds import BACKGROUNDS, draw_background, draw_scale
+from vml_course.synth.props.backgrounds import BACKGROUNDS
 from vml_course.synth.props.football import draw_football
 from vml_course.synth.props.gym import draw_tee, draw_thigh
 from vml_course.synth.props.leg import Leg, draw_leg
-from vml_course.synth.props.prints import PRINTS, Print
-from vml_course.synth.scene import Marker, Scene
+from vml_course.synth.props.scale import draw_scale
+from vml_course.synth.scene import Marker
+from vml_course.synth.views import SideView
 
 KNEE_M = 0.09
 SHIN_M = 0.08
@@ -30,7 +31,7 @@ FLOOR_ABOVE_BAR_M = 0.07
 
 
 @dataclass(frozen=True)
-class SoccerKick(Scene):
+class SoccerKick(SideView):
     """Leg, ball and impact; the default is the paper's example (15, 13, 0 and 24 m/s) in exact numbers.
 
     The knee is the world's origin. The leg hangs straight down at the impact; the ball lies so that the
@@ -71,11 +72,6 @@ class SoccerKick(Scene):
     drive_torque_N_m: float = quantity(0.0, "N m", -100.0, 100.0, about="constant muscle torque at the knee")  # noqa: N815
     contact_ms: float = quantity(0.0, "ms", 0.0, 12.0, about="how long foot and ball touch; 0 is an instant")
 
-    texture: str = choice(
-        "speckle", PRINTS, about="what is printed on leg and ball; along stripes nothing can be told apart"
-    )
-    speckle: float = quantity(1.0, "", 0.0, 2.5, about="contrast of the speckle, as a multiple of the usual")
-    speckle_px: float = quantity(1.0, "px", 0.5, 6.0, about="size of the speckle's smallest spots")
     knee: str = choice("marked", ("marked", "plain"), about="a plain knee has nothing that could be tracked")
     background: str = choice("gym", BACKGROUNDS, about="what is behind")
     scale: str = choice("bar", ("bar", "ball"), about="what to calibrate with: a bar, or the ball's own diameter")
@@ -132,9 +128,9 @@ class SoccerKick(Scene):
 
     def look(self, camera: Camera, seed: int) -> Look:
         """Draw the gym, the leg and the ball."""
-        radius, printed = self.ball_diameter_m / 2, Print(self.texture, self.speckle, self.speckle_px)
+        radius, printed = self.ball_diameter_m / 2, self.printed(seed)
         leg = Leg(self.leg_length_m, self.foot_radius_m, KNEE_M, SHIN_M, SHIN_AT)
-        room = draw_background(camera, seed, self._floor_m + FLOOR_ABOVE_BAR_M, self.background)
+        room = self.room(camera, seed, self._floor_m + FLOOR_ABOVE_BAR_M)
         x, y = self.law().ball_m.tolist()
         draw_tee(room, (x, y - radius), self._floor_m)
         draw_scale(room, self.marks_m())
@@ -142,7 +138,7 @@ class SoccerKick(Scene):
         return Look(
             background=room,
             sprites={
-                "leg": draw_leg(leg, camera.px_per_m, seed, printed, plain_knee=self.knee == "plain"),
-                "ball": draw_football(radius, camera.px_per_m, seed, printed),
+                "leg": draw_leg(leg, camera.px_per_m, printed, plain_knee=self.knee == "plain"),
+                "ball": draw_football(radius, camera.px_per_m, printed),
             },
         )

@@ -13,15 +13,16 @@ from vml_course.model.quantity import quantity
 from vml_course.synth.laws.bounce import GroundBounce
 from vml_course.synth.look import Look
 from vml_course.synth.props.balls import draw_basketball
-from vml_course.synth.props.lab import draw_wall
-from vml_course.synth.scene import Marker, Scene
+from vml_course.synth.props.scale import draw_bar
+from vml_course.synth.scene import Marker
+from vml_course.synth.views import SideView
 
 RIM_AT = 0.6  # of the radius
 STILL_SLIP_M_S = 0.05
 
 
 @dataclass(frozen=True)
-class SpinBounce(Scene):
+class SpinBounce(SideView):
     """The point of the contact is the world's origin; the ball comes from the left."""
 
     name: ClassVar[str] = "spin_bounce"
@@ -99,5 +100,7 @@ class SpinBounce(Scene):
     def look(self, camera: Camera, seed: int) -> Look:
         """Draw the room and the ball."""
         mark = (RIM_AT * self.ball_radius_m, 0.0)
-        ball = draw_basketball(self.ball_radius_m, camera.px_per_m, seed, mark)
-        return Look(background=draw_wall(camera, seed, self.marks_m(), 0.0), sprites={"ball": ball})
+        ball = draw_basketball(self.ball_radius_m, camera.px_per_m, self.printed(seed), mark)
+        room = self.room(camera, seed, 0.0)
+        draw_bar(room, self.marks_m())
+        return Look(background=room, sprites={"ball": ball})

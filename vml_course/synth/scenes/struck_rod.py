@@ -12,16 +12,17 @@ from vml_course.model.quantity import quantity
 from vml_course.synth.laws.free import Free, FreeStrike
 from vml_course.synth.look import Look
 from vml_course.synth.props.balls import draw_puck
-from vml_course.synth.props.lab import draw_air_table
 from vml_course.synth.props.plank import draw_rod
-from vml_course.synth.scene import Marker, Scene
+from vml_course.synth.props.scale import draw_bar
+from vml_course.synth.scene import Marker
+from vml_course.synth.views import TopView
 
 RED = (184.0, 62.0, 52.0)
 MARK_AT = 0.86  # of the way from the centre to an end
 
 
 @dataclass(frozen=True)
-class StruckRod(Scene):
+class StruckRod(TopView):
     """The rod's centre at rest is the world's origin; the puck comes from the left, `offset_m` above it."""
 
     name: ClassVar[str] = "struck_rod"
@@ -93,10 +94,12 @@ class StruckRod(Scene):
 
     def look(self, camera: Camera, seed: int) -> Look:
         """Draw table, rod and puck."""
+        table, printed = self.floor(camera, seed), self.printed(seed)
+        draw_bar(table, self.marks_m())
         height = MARK_AT * self.rod_length_m / 2
         marks = (0.0, -height), (0.0, height)
-        rod = draw_rod(marks, self.rod_half_width_m, self.rod_length_m / 2, camera.px_per_m, seed)
+        rod = draw_rod(marks, self.rod_half_width_m, self.rod_length_m / 2, camera.px_per_m, printed)
         return Look(
-            background=draw_air_table(camera, seed, self.marks_m()),
-            sprites={"rod": rod, "ball": draw_puck(self.ball_radius_m, camera.px_per_m, seed, "3", RED)},
+            background=table,
+            sprites={"rod": rod, "ball": draw_puck(self.ball_radius_m, camera.px_per_m, printed, "3", RED)},
         )

@@ -8,20 +8,23 @@ from typing import ClassVar
 
 from vml_course.errors import InputError
 from vml_course.model.camera import Camera
+from vml_course.model.choice import choice
 from vml_course.model.quantity import quantity
 from vml_course.synth.laws.pinned import PinnedStrike
 from vml_course.synth.laws.struck import Struck
 from vml_course.synth.look import Look
+from vml_course.synth.props.floors import FLOORS
 from vml_course.synth.props.football import draw_football
-from vml_course.synth.props.lab import draw_boards
 from vml_course.synth.props.plank import draw_door, draw_frame
-from vml_course.synth.scene import Marker, Scene
+from vml_course.synth.props.scale import draw_bar
+from vml_course.synth.scene import Marker
+from vml_course.synth.views import TopView
 
 CARD_M = 0.05
 
 
 @dataclass(frozen=True)
-class SwingingDoor(Scene):
+class SwingingDoor(TopView):
     """The hinge is the world's origin; the door reaches down in the picture, the ball comes from the right."""
 
     name: ClassVar[str] = "swinging_door"
@@ -50,6 +53,7 @@ class SwingingDoor(Scene):
     ball_diameter_m: float = quantity(0.2, "m", 0.08, 0.25, symbol="D", about="diameter of the ball")
     ball_speed_m_s: float = quantity(6.0, "m/s", 1.0, 15.0, symbol="v", about="speed of the ball towards the door")
     door_thickness_m: float = quantity(0.04, "m", 0.03, 0.06, about="thickness of the door")
+    background: str = choice("boards", FLOORS, about="what is below")
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -93,13 +97,14 @@ class SwingingDoor(Scene):
 
     def look(self, camera: Camera, seed: int) -> Look:
         """Draw the floor with the wall, the door and the ball."""
-        floor = draw_boards(camera, seed, self.marks_m())
+        floor, printed = self.floor(camera, seed), self.printed(seed)
+        draw_bar(floor, self.marks_m())
         draw_frame(floor, self.door_thickness_m / 2)
         half = self.door_thickness_m / 2
         return Look(
             background=floor,
             sprites={
-                "door": draw_door(self.door_length_m, half, CARD_M, camera.px_per_m, seed),
-                "ball": draw_football(self.ball_diameter_m / 2, camera.px_per_m, seed),
+                "door": draw_door(self.door_length_m, half, CARD_M, camera.px_per_m, printed),
+                "ball": draw_football(self.ball_diameter_m / 2, camera.px_per_m, printed),
             },
         )

@@ -13,8 +13,9 @@ from vml_course.model.quantity import quantity
 from vml_course.synth.laws.free import Free, FreeStrike
 from vml_course.synth.look import Look
 from vml_course.synth.props.balls import draw_puck
-from vml_course.synth.props.lab import draw_air_table
-from vml_course.synth.scene import Marker, Scene
+from vml_course.synth.props.scale import draw_bar
+from vml_course.synth.scene import Marker
+from vml_course.synth.views import TopView
 
 BLUE = (48.0, 94.0, 168.0)
 SLOWEST_M_S = 0.1
@@ -22,7 +23,7 @@ RED = (184.0, 62.0, 52.0)
 
 
 @dataclass(frozen=True)
-class TwoPucks(Scene):
+class TwoPucks(TopView):
     """Puck A, whose centre at the impact is the world's origin, comes from the left; puck B lies still or drifts."""
 
     name: ClassVar[str] = "two_pucks"
@@ -86,11 +87,13 @@ class TwoPucks(Scene):
 
     def look(self, camera: Camera, seed: int) -> Look:
         """Draw table and pucks."""
+        table, printed = self.floor(camera, seed), self.printed(seed)
+        draw_bar(table, self.marks_m())
         return Look(
-            background=draw_air_table(camera, seed, self.marks_m()),
+            background=table,
             sprites={
-                "puck_a": draw_puck(self.puck_a_radius_m, camera.px_per_m, seed, "1", BLUE),
-                "puck_b": draw_puck(self.puck_b_radius_m, camera.px_per_m, seed, "2", RED),
+                "puck_a": draw_puck(self.puck_a_radius_m, camera.px_per_m, printed, "1", BLUE),
+                "puck_b": draw_puck(self.puck_b_radius_m, camera.px_per_m, printed, "2", RED),
             },
         )
 
