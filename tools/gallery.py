@@ -12,6 +12,7 @@ from av.filter import Graph
 
 from vml_course.model.frame import Picture
 from vml_course.model.recording import Recording
+from vml_course.model.truth import Truth
 from vml_course.synth.render import render
 from vml_course.synth.scene import scene_class, scene_names
 from vml_course.synth.simulate import simulate
@@ -37,7 +38,7 @@ def main() -> None:
         for number, picture in enumerate(render(truth, Recording(noise_grey=0.0))):
             if number in shown:
                 frames.append(cv2.resize(_bgr(picture), GIF, interpolation=cv2.INTER_AREA))
-            if number == truth.impact.frame_before + AFTER:
+            if number == _shown_frame(truth):
                 tiles.append(_titled(cv2.resize(_bgr(picture), TILE, interpolation=cv2.INTER_AREA), name))
         _write_gif(DOCS / "gallery" / f"{name}.gif", frames)
         print(name)
@@ -45,6 +46,11 @@ def main() -> None:
     (DOCS / "gallery.png").write_bytes(
         cv2.imencode(".png", np.vstack(rows), [cv2.IMWRITE_PNG_COMPRESSION, 9])[1].tobytes()
     )
+
+
+def _shown_frame(truth: Truth) -> int:
+    """Return the frame of the tile: soon after the impact, or the first at full load."""
+    return int(truth.strain.load.argmax()) if truth.strain else truth.met.frame_before + AFTER
 
 
 def _bgr(picture: Picture) -> np.ndarray:
