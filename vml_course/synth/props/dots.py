@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from numba import njit
 
 from vml_course.synth.canvas import Canvas
 from vml_course.synth.sprite import OVERSAMPLE
@@ -40,10 +41,15 @@ def _distance(seed: int, shape: tuple[int, ...], radius: float) -> Plane:
     x, y, size = raw_bits(seed, "dots", 3 * count).reshape(3, count).astype(np.float64) / 2.0**64
     x, y, size = x * columns, y * rows, radius * (1 + UNEVEN * (2 * size - 1))
     reach = math.ceil(radius * (1 + UNEVEN)) + 1
-    distance = np.full((rows + 2 * reach + 1, columns + 2 * reach + 1), reach, np.float32)
-    row, column = y.astype(np.int64), x.astype(np.int64)
-    for down in range(-reach, reach + 1):
-        for right in range(-reach, reach + 1):
-            off = np.hypot(column + right - x, row + down - y) - size
-            np.minimum.at(distance, (row + down + reach, column + right + reach), off.astype(np.float32))
-    return np.ascontiguousarray(distance[reach : reach + rows, reach : reach + columns])
+    distance = np.full((rows, columns), reach, np.float32)
+    _keep_nearest(distance, np.stack([x, y, size], axis=-1), reach)
+    return distance
+
+
+@njit(cache=True, nogil=True)
+def _keep_nearest(distance, dots, reach):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN202
+    rows, columns = distance.shape
+    for x, y, size in dots:
+        for i in range(max(0, int(y) - reach), min(rows, int(y) + reach + 1)):
+            for j in range(max(0, int(x) - reach), min(columns, int(x) + reach + 1)):
+                distance[i, j] = min(distance[i, j], np.float32(np.sqrt((j - x) ** 2 + (i - y) ** 2) - size))
