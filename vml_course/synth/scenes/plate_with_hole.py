@@ -37,10 +37,10 @@ class PlateWithHole(Sheet):
     story: ClassVar[str] = (
         "The middle of a large plastic plate with a round hole of radius R, sprayed with speckle, is pulled along x by "
         "the stress S, far from the hole; Young's modulus is E, Poisson's ratio nu. The load rises, is held, and goes "
-        "back. Track the speckle beside the hole, above and below it, and far away: find how many times the strain "
-        "(and there, where nothing presses across, the stress) at the hole is that of the plate without a hole, S / E, "
-        "which is the stress concentration Kt. The marks a and b left and right of the hole, c and d above and below "
-        "it, tell how the hole becomes an ellipse; e and f, g and h are far away."
+        "back. Track the speckle beside the hole, above and below it, and far away: find the strain eps far away at "
+        "full load, and how many times it is exceeded at the hole: the stress concentration Kt, for there nothing "
+        "presses across and the stress is E times the strain. The marks a and b left and right of the hole, c and d "
+        "above and below it, tell how the hole becomes an ellipse; e and f, g and h are far away."
     )
     unknowns: ClassVar[Mapping[str, str]] = {
         "Kt": "stress concentration: greatest stress at the hole over remote stress",
