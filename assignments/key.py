@@ -68,14 +68,14 @@ def answer_key(
 _TRUE: Mapping[str, Callable[[Truth], float]] = {
     "px_per_m": lambda truth: truth.camera.px_per_m,
     "fps": lambda truth: truth.camera.fps,
-    "omega1": lambda truth: truth.impact.omega_before_rad_s,
-    "omega2": lambda truth: truth.impact.omega_after_rad_s,
-    "v_f1": lambda truth: truth.impact.omega_before_rad_s * truth.given["L"],
-    "v_f2": lambda truth: truth.impact.omega_after_rad_s * truth.given["L"],
-    "v_b1": lambda truth: _along(truth.impact, truth.impact.struck_before_m_s),
-    "v_b2": lambda truth: _along(truth.impact, truth.impact.struck_after_m_s),
-    "e": lambda truth: truth.impact.restitution,
-    "I": lambda truth: truth.impact.inertia_kg_m2,
+    "omega1": lambda truth: truth.met.omega_before_rad_s,
+    "omega2": lambda truth: truth.met.omega_after_rad_s,
+    "v_f1": lambda truth: truth.met.omega_before_rad_s * truth.given["L"],
+    "v_f2": lambda truth: truth.met.omega_after_rad_s * truth.given["L"],
+    "v_b1": lambda truth: _along(truth.met, truth.met.struck_before_m_s),
+    "v_b2": lambda truth: _along(truth.met, truth.met.struck_after_m_s),
+    "e": lambda truth: truth.met.restitution,
+    "I": lambda truth: truth.met.inertia_kg_m2,
 }
 
 ANSWERABLE = tuple(_TRUE)
@@ -108,7 +108,7 @@ def _along(impact: ImpactTruth, velocity_m_s: Any) -> float:
 
 
 def _further(truth: Truth) -> dict[str, float]:
-    impact = truth.impact
+    impact = truth.met
     since_s = impact.time_s - truth.time_s[impact.frame_before]  # never interpolated across the impact
     leg_rad = float(truth.leg_angle_rad[impact.frame_before] + impact.omega_before_rad_s * since_s)
     path_rad = leg_rad + math.copysign(math.pi / 2, impact.omega_before_rad_s)

@@ -22,21 +22,21 @@ from vml_course.model.choice import Choice, choices_of
 from vml_course.model.quantity import Quantity, quantities_of
 from vml_course.model.recording import Recording
 from vml_course.model.units import UNITS
-from vml_course.synth.scene import Scene, scene_class, scene_names
+from vml_course.synth.scene import AnyScene, impact_scene_names, scene_class
 
 Mistakes = Iterator[InputError]
 
 
 def mistakes_in(assignment: Assignment) -> Mistakes:
     """Yield every mistake in what an assignment names, each with its key."""
-    yield from _unknown("scene", [assignment.scene], scene_names())
+    yield from _unknown("scene", [assignment.scene], impact_scene_names())
     yield from _unknown("model", [assignment.model], model_names())
     yield from _questions(assignment)
     yield from _givens(assignment)
     yield from _unknown("separate.mistakes", assignment.separation.mistakes, MISTAKES)
     if not (Path(assignment.folder) / assignment.handout_template).is_file():
         yield InputError("handout", f"a file in {assignment.id}/", repr(assignment.handout_template))
-    if assignment.scene in scene_names():
+    if assignment.scene in impact_scene_names():
         yield from _scene(assignment, scene_class(assignment.scene))
 
 
@@ -66,7 +66,7 @@ def _givens(assignment: Assignment) -> Mistakes:
             )
 
 
-def _scene(assignment: Assignment, scene: type[Scene]) -> Mistakes:
+def _scene(assignment: Assignment, scene: type[AnyScene]) -> Mistakes:
     quantities = quantities_of(scene)
     camera = quantities_of(scene.default_camera)
     drawable = {**quantities, **{f"camera.{name}": quantity for name, quantity in camera.items()}}

@@ -104,11 +104,11 @@ class TableError(InputError):
 
 
 class SceneRefusedError(VmlError):
-    """A simulated impact is not what its parameters promise; it is not handed out."""
+    """A simulated impact or strain is not what its parameters promise; it is not handed out."""
 
-    def __init__(self, scene: str, failed: Iterable[str], hint: str = "") -> None:
+    def __init__(self, scene: str, failed: Iterable[str], hint: str = "", *, what: str = "impact") -> None:
         self.scene, self.failed, self.hint = scene, tuple(failed), hint
-        said = f"{scene}: expected an honest impact, got failed checks: {'; '.join(self.failed)}."
+        said = f"{scene}: expected an honest {what}, got failed checks: {'; '.join(self.failed)}."
         super().__init__(f"{said} {hint}".strip())
 
 

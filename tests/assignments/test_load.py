@@ -68,6 +68,11 @@ MISTAKES = [
     ("step = 0.005", "stop = 0.005", r"draw\.restitution\.stop: expected no such key"),
     ("step = 0.005", "", r"draw\.restitution\.step: expected a value, got none"),
     ("[draw.restitution]", "[draw.bounciness]", r"draw: expected one of .*restitution.*, got 'bounciness'"),
+    (
+        'scene = "soccer_kick"',
+        'scene = "tensile_strip"',
+        r"scene: expected one of .*soccer_kick.*, got 'tensile_strip'",
+    ),
     ('scene = "soccer_kick"', 'scene = "tennis"', r"scene: expected one of .*soccer_kick.*, got 'tennis'"),
     ('model = "fixed-pivot"', 'model = "free"', r"model: expected one of .*fixed-pivot.*, got 'free'"),
     ('handout = "handout.html.j2"', 'handout = "no.j2"', r"handout: expected a file in my-kick/, got 'no\.j2'"),

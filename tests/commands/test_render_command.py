@@ -31,6 +31,17 @@ def test_json_is_all_that_goes_to_standard_output(tmp_path, capsys):
     assert facts["I"] == pytest.approx(1.8816)
 
 
+def test_a_strained_body_is_told_by_its_strain(tmp_path, capsys):
+    small = ["width_px=768", "height_px=320", "px_per_m=3000", "origin_x_px=384", "origin_y_px=130", "eps=0.03"]
+    arguments = ["render", "tensile_strip", *(part for text in small for part in ("--set", text)), "-o", str(tmp_path)]
+    assert run(arguments) == 0
+    assert "eps = 0.03, nu = 0.38, strain of the marks up to 3.05 %, full load from frame 30" in capsys.readouterr().out
+    assert run([*arguments, "--json"]) == 0
+    facts = json.loads(capsys.readouterr().out)
+    assert (facts["nu"], facts["full_load_frame"]) == (0.38, 30)
+    assert "impact_time_s" not in facts
+
+
 def test_parameters_are_listed_with_unit_range_and_meaning(capsys):
     assert run(["render", "soccer_kick", "--parameters"]) == 0
     said = capsys.readouterr().out
@@ -53,6 +64,8 @@ def test_help_lists_the_scenes_and_an_example(capsys):
         (["render", "soccer_kick", "--set", "e=2", "-o", "x"], "restitution (e): expected 0.05 to 1, got 2."),
         (["render", "soccer_kick", "--set", "q=2", "-o", "x"], "--set q: expected one of"),
         (["render", "soccer_kick", "--set", "px_per_m=900", "-o", "x"], "soccer_kick: expected an honest impact"),
+        (["render", "tensile_strip", "--set", "shutter=0.5", "-o", "x"], "shutter: expected 0 in tensile_strip"),
+        (["render", "plate_with_hole", "--set", "S=1e9", "-o", "x"], "stress_Pa (S): expected 2e+06 to 4e+07 Pa"),
         (["render", "hammer_block", "--set", "m=-1", "-o", "x"], "block_mass_kg (m): expected 0.3 to 5 kg, got -1 kg."),
         (["render", "bat_and_ball", "--set", "v=40", "-o", "x"], "ball outside the picture, px is"),
         (["render", "two_pucks", "--set", "v=0.3", "--set", "normal_deg=60", "--set", "drift_m_s=1", "-o", "x"], "hit"),

@@ -6,9 +6,10 @@ from dataclasses import fields, replace
 import numpy as np
 import pytest
 
-from vml_course.errors import FileMissingError, TableError, UnknownNameError
+from vml_course.errors import FileMissingError, InputError, TableError, UnknownNameError
 from vml_course.io.truth import read_truth_csv, read_truth_json, write_truth_csv, write_truth_json
 from vml_course.model.camera import Camera
+from vml_course.model.strained import StrainTruth
 from vml_course.model.truth import Check, ImpactTruth, Realised, Truth
 
 
@@ -70,6 +71,29 @@ def test_json_gives_back_every_digit(tmp_path, truth):
         assert np.array_equal(getattr(back, name), getattr(truth, name))
     for item in fields(ImpactTruth):
         assert np.array_equal(getattr(back.impact, item.name), getattr(truth.impact, item.name))
+
+
+def test_a_strained_body_is_read_back_with_every_digit(tmp_path, truth):
+    gradient = np.arange(24).reshape(3, 2, 2, 2) / 700
+    strained = replace(truth, impact=None, strain=StrainTruth(np.array([0, 0.5, 1]), gradient, {"nu": 1 / 3}))
+    write_truth_json(tmp_path / "truth.json", strained)
+    back = read_truth_json(tmp_path / "truth.json")
+    assert back.impact is None
+    assert back.strain.unknown("nu") == 1 / 3
+    for name in ("load", "gradient", "green_strain"):
+        assert np.array_equal(getattr(back.strain, name), getattr(strained.strain, name))
+    with pytest.raises(UnknownNameError, match="unknown: expected one of nu, got 'e'"):
+        back.strain.unknown("e")
+    with pytest.raises(InputError, match=r"soccer_kick: expected a scene with an impact, got one without\."):
+        _ = back.met
+
+
+def test_a_truth_from_before_there_were_strains_is_still_read(tmp_path, truth):
+    write_truth_json(tmp_path / "truth.json", truth)
+    document = json.loads((tmp_path / "truth.json").read_text())
+    assert document.pop("strain") is None
+    (tmp_path / "truth.json").write_text(json.dumps(document))
+    assert read_truth_json(tmp_path / "truth.json").met.unknowns == truth.met.unknowns
 
 
 def test_a_scene_whose_bodies_do_not_turn_has_no_angle(tmp_path, truth):

@@ -21,8 +21,8 @@ def test_every_scene_is_honest_with_its_defaults(name):
     kind = scene_class(name)
     truth = simulate(kind(), kind.default_camera, seed=0)
     assert truth.scene == name == kind.name
-    assert set(kind.vector or ()) <= set(truth.points)
-    assert set(truth.impact.unknowns) <= set(kind.unknowns)
+    assert set(getattr(kind, "vector", None) or ()) <= set(truth.points)
+    assert set((truth.impact or truth.strain).unknowns) <= set(kind.unknowns)
     assert set(truth.declared) <= {item.name for item in fields(ImpactOptions)} | set(MARKS)
     assert {str(value) for word, value in truth.declared.items() if word in MARKS} <= set(truth.points)
     assert all(item.about for item in quantities_of(kind).values())

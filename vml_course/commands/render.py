@@ -11,6 +11,7 @@ import typer
 from typer.core import TyperCommand
 
 if TYPE_CHECKING:
+    from vml_course.model.truth import Truth
     from vml_course.usecases.make_video import MadeVideo
 
 EXAMPLE = "Example: vml render soccer_kick --set e=11/15 --set fps=480 --seed 7 -o kick"
@@ -70,7 +71,7 @@ def render(
 
 
 def _print_made(made: MadeVideo, folder: Path, as_json: bool) -> None:
-    truth, impact = made.truth, made.truth.impact
+    truth = made.truth
     if as_json:
         facts = {
             "video": str(made.video),
@@ -78,9 +79,8 @@ def _print_made(made: MadeVideo, folder: Path, as_json: bool) -> None:
             "truth_csv": str(folder / "truth.csv"),
             "frames": len(truth.time_s),
             "fps": truth.camera.fps,
-            **{symbol: impact.unknown(symbol) for symbol in impact.unknowns},
-            "impact_time_s": impact.time_s,
-            "frame_before": impact.frame_before,
+            **_unknowns(truth),
+            **_event(truth),
             "checks": {check.name: {"value": check.value, "limit": check.limit} for check in truth.checks},
         }
         typer.echo(json.dumps(facts, indent=1))
@@ -88,10 +88,28 @@ def _print_made(made: MadeVideo, folder: Path, as_json: bool) -> None:
     typer.echo(f"{made.video}  {len(truth.time_s)} frames at {truth.camera.fps:g} 1/s")
     typer.echo(f"{folder / 'truth.json'}  everything, with {len(truth.checks)} checks passed")
     typer.echo(f"{folder / 'truth.csv'}  {', '.join(truth.points)} in px and m")
-    typer.echo(
-        f"{', '.join(f'{symbol} = {impact.unknown(symbol):.5g}' for symbol in impact.unknowns)},"
-        f" impact at {impact.time_s * 1e3:.2f} ms, after frame {impact.frame_before}"
-    )
+    typer.echo(f"{', '.join(f'{symbol} = {value:.5g}' for symbol, value in _unknowns(truth).items())}, {_told(truth)}")
+
+
+def _unknowns(truth: Truth) -> dict[str, float]:
+    real = truth.strain or truth.met
+    return {symbol: real.unknown(symbol) for symbol in real.unknowns}
+
+
+def _event(truth: Truth) -> dict[str, float]:
+    """Return when it happens: the impact, or the first frame at full load."""
+    if truth.strain:
+        frame = int(truth.strain.load.argmax())
+        return {"full_load_s": float(truth.time_s[frame]), "full_load_frame": frame, "most_strain": truth.strain.most}
+    return {"impact_time_s": truth.met.time_s, "frame_before": truth.met.frame_before}
+
+
+def _told(truth: Truth) -> str:
+    event = _event(truth)
+    if truth.strain:
+        strain = 100 * event["most_strain"]
+        return f"strain of the marks up to {strain:.3g} %, full load from frame {event['full_load_frame']}"
+    return f"impact at {event['impact_time_s'] * 1e3:.2f} ms, after frame {event['frame_before']}"
 
 
 def _print_parameters(scene: str, as_json: bool) -> None:

@@ -16,6 +16,7 @@ from vml_course.io.files import existing, replacing
 from vml_course.model.arrays import FloatArray
 from vml_course.model.camera import Camera
 from vml_course.model.recording import Recording
+from vml_course.model.strained import StrainTruth
 from vml_course.model.truth import Check, ImpactTruth, Realised, Truth
 
 FORMAT = "vml-truth 2"
@@ -24,7 +25,8 @@ FORMAT = "vml-truth 2"
 def write_truth_json(path: Path, truth: Truth) -> None:
     """Write everything that is known of a clip; numbers keep all their digits."""
     document = {"format": FORMAT} | {item.name: _plain(getattr(truth, item.name)) for item in fields(truth)}
-    document["impact"] = {item.name: _plain(getattr(truth.impact, item.name)) for item in fields(truth.impact)}
+    for name, record in (("impact", truth.impact), ("strain", truth.strain)):
+        document[name] = record and {item.name: _plain(getattr(record, item.name)) for item in fields(record)}
     _write(path, json.dumps(document, indent=1, allow_nan=False) + "\n")
 
 
@@ -89,14 +91,21 @@ def _truth(document: dict[str, Any]) -> Truth:
     document["camera"] = Camera(**document["camera"])
     if document.get("recording"):  # truths of clips that were never stored have none
         document["recording"] = Recording(**document["recording"])
-    unknowns = document["impact"]["unknowns"]
-    document["impact"]["unknowns"] = {symbol: Realised(**values) for symbol, values in unknowns.items()}
-    document["impact"] = ImpactTruth(**document["impact"])
+    document["impact"] = _impact(document["impact"])
+    if document.get("strain"):
+        document["strain"] = StrainTruth(**document["strain"])
     document["checks"] = tuple(Check(**check) for check in document["checks"])
     document["marks_m"] = {name: tuple(place) for name, place in document["marks_m"].items()}
     for name in ("bodies", "points"):
         document[name] = tuple(document[name])
     return Truth(**document)
+
+
+def _impact(values: dict[str, Any] | None) -> ImpactTruth | None:
+    if values is None:  # a body is strained, nothing is hit
+        return None
+    unknowns = {symbol: Realised(**realised) for symbol, realised in values["unknowns"].items()}
+    return ImpactTruth(**{**values, "unknowns": unknowns})
 
 
 def _plain(value: Any) -> Any:

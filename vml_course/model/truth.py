@@ -7,10 +7,11 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from vml_course.errors import UnknownNameError
+from vml_course.errors import InputError, UnknownNameError
 from vml_course.model.arrays import Axes, FloatArray, set_frozen
 from vml_course.model.camera import Camera
 from vml_course.model.recording import Recording
+from vml_course.model.strained import StrainTruth
 
 
 @dataclass(frozen=True, slots=True)
@@ -171,11 +172,12 @@ class Truth:
         scene has no such vector.
     marks_m : mapping of str to (float, float)
         Still points to calibrate with, such as both ends of the scale bar.
-    impact : ImpactTruth
+    impact : ImpactTruth or None
+        None where nothing is hit but a body is strained.
     checks : tuple of Check
     versions : mapping of str to str
     model : str
-        Name of the impact model in `kinetics` that solves this scene.
+        Name of the impact model in `kinetics` that solves this scene; "" where there is no impact.
     given : mapping of str to float
         What the solver is told, by symbol, SI units (`m`, `L`, ...).
     seed : int
@@ -190,6 +192,8 @@ class Truth:
     row_marks_px : float array, shape (n, m, 2)
         With a rolling shutter only, else empty: when the row is exposed in which each tracked point is seen
         (middle of the exposure), and where points and marks are seen then.
+    strain : StrainTruth or None
+        How a body is strained, where one is.
     """
 
     scene: str
@@ -202,7 +206,7 @@ class Truth:
     xy_m: FloatArray
     leg_angle_rad: FloatArray
     marks_m: Mapping[str, tuple[float, float]]
-    impact: ImpactTruth
+    impact: ImpactTruth | None
     checks: tuple[Check, ...]
     versions: Mapping[str, str]
     model: str
@@ -214,6 +218,7 @@ class Truth:
     row_time_s: FloatArray = field(default_factory=lambda: np.zeros((0, 0)))
     row_xy_px: FloatArray = field(default_factory=lambda: np.zeros((0, 0, 2)))
     row_marks_px: FloatArray = field(default_factory=lambda: np.zeros((0, 0, 2)))
+    strain: StrainTruth | None = None
 
     def __post_init__(self) -> None:
         axes = Axes()
@@ -234,6 +239,19 @@ class Truth:
             values = np.asarray(getattr(self, name))
             full = values if len(values) else np.zeros((0, *shape))
             set_frozen(self, **{name: (axes if len(values) else Axes()).freeze(name, full, "n", *shape)})
+
+    @property
+    def met(self) -> ImpactTruth:
+        """The impact of a clip that has one.
+
+        Raises
+        ------
+        InputError
+            When nothing is hit in this scene.
+        """
+        if self.impact is None:
+            raise InputError(self.scene, "a scene with an impact", "one without", "Choose another scene.")
+        return self.impact
 
     @property
     def seen_s(self) -> FloatArray:

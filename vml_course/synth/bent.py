@@ -68,7 +68,7 @@ class Bent(NamedTuple):
         half = (pose[:, ::2] + pose[:, 1::2]) / 2 if pose.shape[1] > 1 else pose
         veil, (luma, chroma) = empty_veil(box), self.sprite.drawings
         add_gathered(luma, self.sprite.ways(pose), places, veil.luma)
-        add_gathered(chroma, _halved(self.sprite.ways(half)), in_halves(places), veil.chroma)
+        add_gathered(chroma, halved(self.sprite.ways(half)), in_halves(places), veil.chroma)
         count = np.float32(len(pose))
         return Veil(veil.luma / count, veil.chroma / count)
 
@@ -80,7 +80,7 @@ class Bent(NamedTuple):
         return x0, y0, x1, y1
 
 
-def _halved(ways: FloatArray) -> FloatArray:
+def halved(ways: FloatArray) -> FloatArray:
     """Lead to a drawing of half as many samples, whose first lies in the middle of two."""
     half = ways / 2
     half[..., 2] -= 0.25

@@ -15,11 +15,13 @@ from vml_course.synth.bent import Bent
 from vml_course.synth.exposure import Swept, count_instants, expose, expose_shaken
 from vml_course.synth.path import fine_path
 from vml_course.synth.rows import row_exposures
-from vml_course.synth.scene import Scene, scene_class
+from vml_course.synth.scene import AnyScene, Scene, scene_class
 from vml_course.synth.sensor import make_sensor
 from vml_course.synth.shake import wander
+from vml_course.synth.sheet import Sheet
 from vml_course.synth.sight import Sight
 from vml_course.synth.sprite import Planes, Sprite, make_planes
+from vml_course.synth.strained import draw_strained
 
 
 def render(truth: Truth, recording: Recording) -> Iterator[Picture]:
@@ -29,15 +31,25 @@ def render(truth: Truth, recording: Recording) -> Iterator[Picture]:
         yield sensor.expose(planes, number)
 
 
-def scene_of(truth: Truth) -> Scene:
+def scene_of(truth: Truth) -> AnyScene:
     """Return the scene that a truth was made from."""
     return scene_class(truth.scene)(**truth.parameters)
 
 
+def impact_scene_of(truth: Truth) -> Scene:
+    """Return the scene that the truth of an impact was made from."""
+    if not isinstance(scene := scene_of(truth), Scene):
+        raise TypeError(f"{scene.name}: nothing is hit")
+    return scene
+
+
 def draw_frames(truth: Truth) -> Iterator[Planes]:
     """Yield the pictures without noise and rounding; each is overwritten by the next."""
+    if isinstance(scene := scene_of(truth), Sheet):
+        yield from draw_strained(truth, scene)
+        return
     sight = Sight(truth.camera)
-    look = scene_of(truth).look(sight.board, truth.seed)
+    look = impact_scene_of(truth).look(sight.board, truth.seed)
     sprites = [look.sprites[body] for body in truth.bodies]
     still = sight.still(make_planes(look.background))
     planes = still.copy()
@@ -59,7 +71,7 @@ def _exposed(
         for pose_px, offset_px in exposures(truth, sprites):
             yield [Swept(sprite, pose_px[:, k]) for k, sprite in enumerate(sprites)], offset_px
     else:
-        for pose_px, offset_px in row_exposures(truth, scene_of(truth), sprites):
+        for pose_px, offset_px in row_exposures(truth, impact_scene_of(truth), sprites):
             yield [Bent(sprite, pose_px[:, :, k], sight, offset_px) for k, sprite in enumerate(sprites)], offset_px
 
 
@@ -77,7 +89,7 @@ def exposures(truth: Truth, sprites: Sequence[Sprite]) -> Iterator[tuple[FloatAr
         offset_px = truth.offset_px[:, None]
         yield from zip(to_picture(truth.camera, truth.pose[:, None], offset_px), offset_px, strict=True)
         return
-    path = fine_path(scene_of(truth), truth.camera.fps)
+    path = fine_path(impact_scene_of(truth), truth.camera.fps)
 
     def seen(time_s: FloatArray) -> tuple[FloatArray, FloatArray]:
         offset_px = wander(truth.seed, truth.camera.shake_px, time_s)

@@ -1,7 +1,8 @@
 """What a scene is, and which scenes there are.
 
 A scene is its parameters: a frozen record whose fields are declared once with `quantity()`. A file in
-`synth/scenes` that holds one subclass of `Scene` is a scene that exists; nothing else has to know of it.
+`synth/scenes` that holds one subclass of `Scene` (rigid bodies and an impact) or of `sheet.Sheet` (a body that is
+strained) is a scene that exists; nothing else has to know of it.
 """
 
 from __future__ import annotations
@@ -46,11 +47,8 @@ class Marker:
 
 
 @dataclass(frozen=True)
-class Scene(ABC):
-    """Base of all scenes: say the parameters, the physics, what is tracked, and how it looks.
-
-    To add one, write a file in `synth/scenes` with one subclass: a frozen dataclass with the class
-    attributes below, its fields by `quantity()`, and the abstract methods.
+class AnyScene(ABC):
+    """What all scenes have in common, whatever happens in them.
 
     Attributes
     ----------
@@ -59,12 +57,43 @@ class Scene(ABC):
     title : str
         One line for a list.
     model : str
-        Name of the impact model in `kinetics` that solves it.
+        Name of the impact model in `kinetics` that solves it; "" where there is no impact.
     story : str
         What the handout says: what is seen, what is known, what is looked for.
     unknowns : mapping of str to str
         What students look for: symbol, and what it means.
     default_camera : Camera
+    """
+
+    name: ClassVar[str]
+    title: ClassVar[str]
+    model: ClassVar[str] = ""
+    story: ClassVar[str]
+    unknowns: ClassVar[Mapping[str, str]]
+    default_camera: ClassVar[Camera]
+
+    def __post_init__(self) -> None:
+        check_choices(self)
+        check_quantities(self)
+
+    @abstractmethod
+    def marks_m(self) -> dict[str, tuple[float, float]]:
+        """Return still points to calibrate with, in metres, y up."""
+
+    @abstractmethod
+    def given(self) -> dict[str, float]:
+        """Return what the solver is told, by symbol, SI units."""
+
+
+@dataclass(frozen=True)
+class Scene(AnyScene):
+    """Base of all scenes with an impact: say the parameters, the physics, what is tracked, and how it looks.
+
+    To add one, write a file in `synth/scenes` with one subclass: a frozen dataclass with the class
+    attributes of `AnyScene` and those below, its fields by `quantity()`, and the abstract methods.
+
+    Attributes
+    ----------
     bodies : tuple of str
         The moving bodies, striker first.
     vector : (str, str), optional
@@ -75,12 +104,6 @@ class Scene(ABC):
         The time step is no longer than this; slow scenes may take longer ones.
     """
 
-    name: ClassVar[str]
-    title: ClassVar[str]
-    model: ClassVar[str]
-    story: ClassVar[str]
-    unknowns: ClassVar[Mapping[str, str]]
-    default_camera: ClassVar[Camera]
     bodies: ClassVar[tuple[str, ...]]
     vector: ClassVar[tuple[str, str] | None] = None
     seen_s: ClassVar[float] = 0.04
@@ -89,10 +112,6 @@ class Scene(ABC):
     time_before_s: float = quantity(0.05, "s", 0.04, 0.1, about="time shown before the impact")
     time_after_s: float = quantity(0.05, "s", 0.04, 0.1, about="time shown after the impact")
     impact_phase: float = quantity(0.5, "", 0.0, 0.99, about="part of a frame interval by which the impact is late")
-
-    def __post_init__(self) -> None:
-        check_choices(self)
-        check_quantities(self)
 
     def clock(self, fps: float, refine: int = 1) -> Clock:
         """Return frames and steps of the clip; `refine` divides the time step further."""
@@ -107,14 +126,6 @@ class Scene(ABC):
     def markers(self) -> tuple[Marker, ...]:
         """Return the points to track."""
 
-    @abstractmethod
-    def marks_m(self) -> dict[str, tuple[float, float]]:
-        """Return still points to calibrate with, in metres, y up."""
-
-    @abstractmethod
-    def given(self) -> dict[str, float]:
-        """Return what the solver is told, by symbol, SI units."""
-
     def declared(self) -> dict[str, str | float | bool]:
         """Return what the solver is told beside it: fields of `kinetics.impact_model.ImpactOptions`."""
         return {}
@@ -125,7 +136,7 @@ class Scene(ABC):
 
 
 @cache
-def _registry() -> Mapping[str, type[Scene]]:
+def _registry() -> Mapping[str, type[AnyScene]]:
     modules = [
         importlib.import_module(f"{scenes.__name__}.{item.name}") for item in pkgutil.iter_modules(scenes.__path__)
     ]
@@ -133,7 +144,7 @@ def _registry() -> Mapping[str, type[Scene]]:
         item
         for module in modules
         for item in vars(module).values()
-        if isinstance(item, type) and issubclass(item, Scene) and item.__module__ == module.__name__
+        if isinstance(item, type) and issubclass(item, AnyScene) and item.__module__ == module.__name__
     ]
     return {scene.name: scene for scene in sorted(found, key=lambda scene: scene.name)}
 
@@ -143,7 +154,12 @@ def scene_names() -> tuple[str, ...]:
     return tuple(_registry())
 
 
-def scene_class(name: str) -> type[Scene]:
+def impact_scene_names() -> tuple[str, ...]:
+    """Return the names of the scenes with an impact, sorted."""
+    return tuple(name for name, scene in _registry().items() if issubclass(scene, Scene))
+
+
+def scene_class(name: str) -> type[AnyScene]:
     """Return the scene of a name.
 
     Raises

@@ -11,7 +11,7 @@ from vml_course.model.choice import Choice, choices_of
 from vml_course.model.quantity import Quantity, quantities_of
 from vml_course.model.reading import read_number
 from vml_course.model.recording import Recording
-from vml_course.synth.scene import Scene, scene_class
+from vml_course.synth.scene import AnyScene, scene_class
 
 Value = float | str
 
@@ -20,7 +20,7 @@ Value = float | str
 class Settings:
     """All that makes a clip, beside the seed."""
 
-    scene: Scene
+    scene: AnyScene
     camera: Camera
     recording: Recording
 
@@ -75,7 +75,7 @@ def make_settings(scene: str, values: Mapping[str, Value]) -> Settings:
         return {item.name: named[item.name] for item in fields(record) if item.name in named}
 
     return Settings(
-        scene=kind(**of(kind)),  # type: ignore[arg-type]
+        scene=kind(**of(kind)),
         camera=replace(kind.default_camera, **of(Camera)),  # type: ignore[arg-type]
         recording=Recording(**of(Recording)),  # type: ignore[arg-type]
     )

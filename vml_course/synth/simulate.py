@@ -24,20 +24,23 @@ from vml_course.synth.honesty import (
     place,
 )
 from vml_course.synth.law import Law
+from vml_course.synth.loading import load_sheet
 from vml_course.synth.rows import with_rows
 from vml_course.synth.run import Contact, Run
-from vml_course.synth.scene import Scene
+from vml_course.synth.scene import AnyScene, Scene
 from vml_course.synth.shake import wander
+from vml_course.synth.sheet import Sheet
 
 OUT_OF_SIGHT = "Lower px_per_m, move origin_x_px or origin_y_px, or widen the picture."
 
 
-def simulate(scene: Scene, camera: Camera, seed: int, *, refine: int = 1) -> Truth:
+def simulate(scene: AnyScene, camera: Camera, seed: int, *, refine: int = 1) -> Truth:
     """Simulate a scene as a camera sees it.
 
     Parameters
     ----------
-    scene : Scene
+    scene : AnyScene
+        With an impact (`Scene`), or with a body that is strained (`Sheet`).
     camera : Camera
     seed : int
         Kept for the textures and the noise; the motion does not depend on it.
@@ -47,13 +50,17 @@ def simulate(scene: Scene, camera: Camera, seed: int, *, refine: int = 1) -> Tru
     Returns
     -------
     Truth
-        Frames, realised impact, and every honesty check with its figure.
+        Frames, realised impact or strain, and every honesty check with its figure.
 
     Raises
     ------
     SceneRefusedError
         When a check fails: the impact is not what the parameters promise, or is not seen.
     """
+    if isinstance(scene, Sheet):
+        return load_sheet(scene, camera, seed)
+    if not isinstance(scene, Scene):
+        raise TypeError(f"{scene.name}: neither an impact nor a sheet")
     law, clock = scene.law(), scene.clock(camera.fps, refine)
     run = law.run(clock)
     if run.contact is None:

@@ -14,7 +14,7 @@ from vml_course.model.frame import Picture
 from vml_course.model.recording import FORMATS, Recording
 from vml_course.model.truth import Truth
 from vml_course.synth.render import render
-from vml_course.synth.scene import Scene
+from vml_course.synth.scene import AnyScene
 from vml_course.synth.simulate import simulate
 
 Progress = Callable[[int, int], None]
@@ -29,7 +29,7 @@ class MadeVideo:
 
 
 def make_video(
-    scene: Scene, camera: Camera, recording: Recording, seed: int, folder: Path, progress: Progress | None = None
+    scene: AnyScene, camera: Camera, recording: Recording, seed: int, folder: Path, progress: Progress | None = None
 ) -> MadeVideo:
     """Write `video.mp4` (or `.avi`), `truth.json` and `truth.csv` into a folder, in place of an older clip there.
 

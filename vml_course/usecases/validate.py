@@ -228,7 +228,7 @@ def _solve(truth: Truth, track: Track) -> ImpactSolution:
 
 def _score(case: str, truth: Truth, track: Track, solution: ImpactSolution | None, note: str) -> Score:
     offset = track.xy_px - truth.xy_px[: len(track.frame)]
-    found, impact = np.isfinite(offset[1:]), truth.impact
+    found, impact = np.isfinite(offset[1:]), truth.met
     within = np.abs(offset[1:]) <= WITHIN_95 * track.sigma_px[1:, :, None]
     true = {symbol: impact.unknown(symbol) for symbol in impact.unknowns}
     if impact.omega_before_rad_s and (solution is None or "omega1" in solution.estimates):
