@@ -8,7 +8,7 @@ Derivatives come by complex steps, f'(x) = Im f(x + ih) / h, exact to rounding: 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -20,6 +20,7 @@ from vml_course.kinetics.paths import Path, Symbols
 from vml_course.model.arrays import FloatArray
 
 STEP = 1e-30
+MOST_MISPLACED = 2  # frames of a point
 Outcome = Callable[[Symbols], Mapping[str, Any]]
 
 
@@ -157,7 +158,30 @@ class Derived:
 
 
 def fit(problem: Problem) -> Fit:
-    """Fit by weighted least squares (Levenberg-Marquardt)."""
+    """Fit by weighted least squares (Levenberg-Marquardt).
+
+    A frame right beside the impact can have been put on the wrong side of it. The fitted moment tells; such frames are
+    left out, and the rest is fitted again.
+    """
+    found = _fit(problem)
+    watched = tuple(_rightly_sided(point, found["t"]) for point in problem.watched)
+    if all(new is old for new, old in zip(watched, problem.watched, strict=True)):
+        return found
+    start = dict(zip(problem.start, map(float, found.x), strict=True))
+    return _fit(replace(problem, start=start, watched=watched))
+
+
+def _rightly_sided(point: Watched, time_s: float) -> Watched:
+    """Return a point without the frames whose side a moment contradicts; many such frames speak against the moment."""
+    seen = point.seen
+    right = (seen.time_s > time_s) == seen.is_after
+    if right.all() or np.sum(~right) > MOST_MISPLACED:
+        return point
+    kept = Seen(seen.time_s[right], seen.xy_m[right], seen.sigma_m[right], seen.is_after[right])
+    return replace(point, seen=kept)
+
+
+def _fit(problem: Problem) -> Fit:
     count = len(problem.start)
 
     def misfit(x: FloatArray) -> FloatArray:

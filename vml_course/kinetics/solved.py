@@ -95,12 +95,21 @@ def joint_solution(
         method="joint",
         estimates=estimates,
         correlation_e_I=_correlation(derived, "e", "I"),
-        frame_before=int(solving.motion.frame[solving.frames.impact.last_before]),
+        frame_before=_frame_before(solving, estimates["t_impact"].value),
         notes=(*common_notes(every, estimates), *notes),
         figures={name: float(value) for name, value in every.items()},
         covariance=covariance,
         fitted=fitted_motion(fit, solving),
     )
+
+
+def _frame_before(solving: Solving, impact_s: float) -> int:
+    """Return the last frame before the contact, or before the fitted moment where no frame shows contact."""
+    motion, last = solving.motion, solving.frames.impact.last_before
+    if solving.frames.contact_frames == 0:
+        near = slice(max(last - 1, 0), last + 3)  # the moment is a frame off at most
+        last = near.start + max(int(np.sum(motion.time_s[near] <= impact_s)) - 1, 0)
+    return int(motion.frame[last])
 
 
 def fitted_motion(fit: Fit, solving: Solving) -> Motion:
