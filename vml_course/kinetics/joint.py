@@ -17,7 +17,7 @@ from scipy.optimize import least_squares
 
 from vml_course.kinetics.clear_frames import Seen
 from vml_course.kinetics.paths import Path, Symbols
-from vml_course.model.arrays import FloatArray
+from vml_course.model.arrays import FloatArray, IntArray
 
 STEP = 1e-30
 MOST_MISPLACED = 2  # frames of a point
@@ -105,7 +105,8 @@ class Fit:
     x : float array, shape (k,)
         The unknowns, in the order of `problem.start`.
     covariance : float array, shape (k, k)
-        (J^T J)^-1 s^2, inflated by (1 + rho) / (1 - rho) for residuals that are alike from frame to frame.
+        (J^T J)^-1 J^T W J (J^T J)^-1, with W diagonal: s^2, inflated by (1 + rho) / (1 - rho) for residuals that are
+        alike from frame to frame, rho of each series of its own (see `inflation`).
     residual : float array, shape (rows,)
         In units of sigma.
     lag1 : float
@@ -199,11 +200,11 @@ def _fit(problem: Problem) -> Fit:
     scale = np.maximum(np.sqrt(np.sum(every[:, :count] ** 2, axis=0)), 1e-300)
     inverse = np.linalg.pinv(every[:, :count] / scale, rcond=1e-12)
     lag1 = lag1_correlation(residual, problem)
-    variance = residual @ residual / max(len(residual) - count, 1) * (1.0 + lag1) / (1.0 - lag1)
+    variance = residual @ residual / max(len(residual) - count, 1) * inflation(residual, problem, lag1)
     return Fit(
         problem=problem,
         x=x,
-        covariance=variance * (inverse @ inverse.T) / np.outer(scale, scale),
+        covariance=(inverse * variance @ inverse.T) / np.outer(scale, scale),
         residual=residual,
         lag1=lag1,
         by_known=-(inverse @ every[:, count:]) / scale[:, None],
@@ -216,16 +217,42 @@ def lag1_correlation(residual: FloatArray, problem: Problem) -> float:
     Each coordinate of each point on each side is one series of n frames. Fitting about a line to each
     pulls the estimate r down by (2 + 4 r) / n (Kendall's bias with a trend), which is put back.
     """
-    pairs, squares, start, lengths = 0.0, 0.0, 0, []
+    parts = [residual[rows] for rows in series_of(problem)]
+    pairs = sum(float(part[1:] @ part[:-1]) / max(len(part) - 1, 1) for part in parts)
+    squares = sum(float(part @ part) / len(part) for part in parts)
+    frames = float(np.mean([len(part) for part in parts]))
+    return _unbiased(pairs / squares if squares > 0 else 0.0, frames)
+
+
+def inflation(residual: FloatArray, problem: Problem, lag1: float) -> FloatArray:
+    """Return by how much the variance of each residual is inflated for those that are alike, shape (rows,).
+
+    Errors of a coordinate that moves slowly over the pixels are alike, those of a fast one are not, and one mean says
+    too little of the slow. A single series of some 20 frames knows its own correlation badly, so that it is taken half
+    way between its own and that of all.
+    """
+    factor = np.ones(len(residual))
+    for rows in series_of(problem):
+        part = residual[rows]
+        squares, n = float(part @ part) / len(part), len(part)
+        own = float(part[1:] @ part[:-1]) / max(n - 1, 1) / squares if squares > 0 else 0.0
+        rho = 0.5 * (_unbiased(own, n) + lag1)
+        factor[rows] = (1.0 + rho) / (1.0 - rho)
+    return factor
+
+
+def series_of(problem: Problem) -> list[IntArray]:
+    """Return the rows of `residuals` that belong together, in time: each coordinate of each point on each side."""
+    series, start = [], 0
     for point in problem.watched:
-        sides = [side for side in (~point.seen.is_after, point.seen.is_after) if side.any()]
-        lengths += [int(side.sum()) for side in sides]
+        seen = point.seen
         for _ in range(2):
-            series = residual[start : start + len(point.seen.time_s)]
-            start += len(series)
-            for side in sides:
-                part = series[side]
-                pairs += float(part[1:] @ part[:-1]) / max(len(part) - 1, 1)
-                squares += float(part @ part) / len(part)
-    frames, raw = float(np.mean(lengths)), pairs / squares if squares > 0 else 0.0
+            rows = start + np.argsort(seen.time_s, kind="stable")
+            after = seen.is_after[rows - start]
+            series += [part for part in (rows[~after], rows[after]) if len(part)]
+            start += len(rows)
+    return series
+
+
+def _unbiased(raw: float, frames: float) -> float:
     return float(np.clip((frames * raw + 2.0) / max(frames - 4.0, 1.0), 0.0, 0.95))
