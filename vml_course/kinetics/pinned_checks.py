@@ -10,7 +10,7 @@ from vml_course.kinetics.impact_model import ImpactOptions
 
 LENGTH_SHARE = 0.02
 DOUBT_SD = 3.0
-ALIKE = 1.75  # how much wider a radius is when the errors of neighbouring frames are alike (AR(1) with 0.5)
+ALIKE = 3.0  # how much wider a radius is when the errors of neighbouring frames are alike (AR(1) with 0.8)
 RADIUS_NOTE = 0.003
 
 
