@@ -105,8 +105,7 @@ class Fit:
     x : float array, shape (k,)
         The unknowns, in the order of `problem.start`.
     covariance : float array, shape (k, k)
-        (J^T J)^-1 J^T W J (J^T J)^-1, with W diagonal: s^2, inflated by (1 + rho) / (1 - rho) for residuals that are
-        alike from frame to frame, rho of each series of its own (see `inflation`).
+        (J^T J)^-1 s^2, inflated by (1 + rho) / (1 - rho) for residuals that are alike from frame to frame.
     residual : float array, shape (rows,)
         In units of sigma.
     lag1 : float
@@ -200,11 +199,11 @@ def _fit(problem: Problem) -> Fit:
     scale = np.maximum(np.sqrt(np.sum(every[:, :count] ** 2, axis=0)), 1e-300)
     inverse = np.linalg.pinv(every[:, :count] / scale, rcond=1e-12)
     lag1 = lag1_correlation(residual, problem)
-    variance = residual @ residual / max(len(residual) - count, 1) * inflation(residual, problem, lag1)
+    variance = residual @ residual / max(len(residual) - count, 1) * (1.0 + lag1) / (1.0 - lag1)
     return Fit(
         problem=problem,
         x=x,
-        covariance=(inverse * variance @ inverse.T) / np.outer(scale, scale),
+        covariance=variance * (inverse @ inverse.T) / np.outer(scale, scale),
         residual=residual,
         lag1=lag1,
         by_known=-(inverse @ every[:, count:]) / scale[:, None],
@@ -222,23 +221,6 @@ def lag1_correlation(residual: FloatArray, problem: Problem) -> float:
     squares = sum(float(part @ part) / len(part) for part in parts)
     frames = float(np.mean([len(part) for part in parts]))
     return _unbiased(pairs / squares if squares > 0 else 0.0, frames)
-
-
-def inflation(residual: FloatArray, problem: Problem, lag1: float) -> FloatArray:
-    """Return by how much the variance of each residual is inflated for those that are alike, shape (rows,).
-
-    Errors of a coordinate that moves slowly over the pixels are alike, those of a fast one are not, and one mean says
-    too little of the slow. A single series of some 20 frames knows its own correlation badly, so that it is taken half
-    way between its own and that of all.
-    """
-    factor = np.ones(len(residual))
-    for rows in series_of(problem):
-        part = residual[rows]
-        squares, n = float(part @ part) / len(part), len(part)
-        own = float(part[1:] @ part[:-1]) / max(n - 1, 1) / squares if squares > 0 else 0.0
-        rho = 0.5 * (_unbiased(own, n) + lag1)
-        factor[rows] = (1.0 + rho) / (1.0 - rho)
-    return factor
 
 
 def series_of(problem: Problem) -> list[IntArray]:
