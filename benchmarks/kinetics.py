@@ -1,6 +1,8 @@
 """Solving against the truth: e and I of rendered and tracked kicks, and whether told uncertainties hold in noise.
 
 python benchmarks/kinetics.py [--variants N] [--trials N] [--clips FOLDER]
+python benchmarks/kinetics.py --scenes N     every scene with other numbers, rendered and tracked, by its own model
+python benchmarks/kinetics.py --models N     what the models tell of themselves in noise, N trials each
 
 Variants are drawn as an assignment draws them (mass, length, e, share of the rate that is lost, speed, gravity; every
 other one with a tilted normal), filmed at 480 1/s with 500 px/m, H.264 crf 18 and noise 2, and tracked by `dic` from
@@ -17,6 +19,8 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+from support.noisy_models import print_models
+from support.solved_scenes import print_scenes
 
 from vml_course.errors import SceneRefusedError, VmlError
 from vml_course.io.truth import read_truth_json
@@ -45,7 +49,15 @@ def main() -> None:
     parser.add_argument("--variants", type=int, default=200)
     parser.add_argument("--trials", type=int, default=300)
     parser.add_argument("--clips", type=Path, default=Path(tempfile.gettempdir()) / "vml-bench-kinetics")
+    parser.add_argument("--scenes", type=int, default=0)
+    parser.add_argument("--models", type=int, default=0)
     options = parser.parse_args()
+    if options.scenes:
+        print_scenes(options.scenes, options.clips / "scenes")
+    if options.models:
+        print_models(options.models, NOISES)
+    if options.scenes or options.models:
+        return
     clips = [tracked(number, options.clips) for number in range(options.variants)]
     print_errors(clips)
     print_coverage(options.trials)

@@ -163,3 +163,50 @@ def test_a_picture_that_is_shown_twice_is_told(tmp_path, capsys):
     table.write_text("\n".join(rows) + "\n", encoding="utf-8")
     cli.run(["solve", str(table), *GIVEN, "--gravity", "0 m/s^2"])
     assert "note: frames 411 show the picture before once more" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("ending", ["svg", "png"])
+def test_a_free_body_diagram_is_written_with_the_numbers_on_it(tmp_path, capsys, ending):
+    path = tmp_path / f"forces.{ending}"
+    more = ["--gravity", "0", "--diagram", str(path), "--contact", "10ms", "-g", "M=4kg", "-g", "c=0.25m"]
+    assert cli.run(["solve", str(_kick_csv(tmp_path)), *GIVEN, *more]) == 0
+    assert "0.7333" in capsys.readouterr().out
+    if ending == "svg":
+        shown = path.read_text("utf-8")
+        for words in ("impulse J", "mean force", "pin reaction R", "J = 12 N s", "1200"):
+            assert words in shown
+    else:
+        assert path.read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--model", "two-pucks"], "--diagram: expected a body on a fixed pivot (fixed-pivot or hammer-block)"),
+        (["--method", "lines"], "--diagram: expected a joint solution"),
+        (["--contact", "3 s"], "contact time"),
+        (["--contact", "3"], "--contact: expected a unit"),
+    ],
+)
+def test_a_diagram_that_cannot_be_is_refused_and_nothing_is_left(tmp_path, capsys, monkeypatch, arguments, words):
+    monkeypatch.chdir(tmp_path)
+    table = _kick_csv(tmp_path)
+    more = ["--gravity", "0", "--diagram", "forces.svg", *arguments]
+    assert cli.run(["solve", str(table), *GIVEN, *more]) == 2
+    assert words in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == [table]
+
+
+def test_a_model_knows_the_usual_names_and_view_of_its_scene(tmp_path, capsys):
+    time = np.arange(60) / 480
+    s = (time - 0.0603)[:, None]
+    a = [0.1, 0.2] + np.where(s <= 0, [2.0, 0.5], [0.4, 0.5]) * s
+    b = [0.2, 0.2] + np.where(s <= 0, [0.0, 0.0], [1.6, 0.0]) * s
+    rows = np.column_stack([np.arange(60), time, a, b])
+    header = "frame,t_s,puck_a_x_m,puck_a_y_m,puck_b_x_m,puck_b_y_m\n"
+    table = tmp_path / "pucks.csv"
+    table.write_text(header + "\n".join(",".join(f"{x:.12g}" for x in row) for row in rows) + "\n", encoding="utf-8")
+    assert cli.run(["solve", str(table), "--model", "two-pucks", "-g", "m=0.2 kg", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["e"]["value"] == pytest.approx(0.6, rel=1e-6)
+    assert found["v_a1"]["unit"] == "m/s"

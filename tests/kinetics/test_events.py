@@ -1,8 +1,10 @@
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from vml_course.errors import NoImpactError
-from vml_course.kinetics.events import contact_interval, find_impact
+from vml_course.kinetics.events import contact_interval, find_impact, sudden_jump_m_s
 
 GRAVITY = np.array([0.0, -9.81])
 
@@ -99,3 +101,20 @@ def test_the_contact_interval_holds_the_contact_and_little_more(duration):
     else:
         assert 0.0831 - 1.1 / 480 < start < 0.0831 + 0.5 / 480  # its soft start is within the noise
         assert 0.0831 + duration - 0.5 / 480 < end < 0.0831 + duration + 1.1 / 480
+
+
+def test_a_path_that_was_never_measured_has_no_impact_and_no_warning(recwarn):
+    with pytest.raises(NoImpactError):
+        find_impact(np.zeros(0), np.zeros((0, 2)), gravity_before=GRAVITY, gravity_after=GRAVITY)
+    with pytest.raises(NoImpactError):
+        find_impact(np.arange(40) / 480, np.full((40, 2), np.nan), gravity_before=GRAVITY, gravity_after=GRAVITY)
+    assert not recwarn.list
+
+
+@given(jump=st.floats(-5.0, 5.0), steady=st.floats(-50.0, 50.0))
+def test_a_sudden_jump_is_told_apart_from_steady_acceleration(jump, steady):
+    time = np.arange(60) / 480
+    s = time - 0.0603
+    x = 0.3 + 2.0 * s + 0.5 * steady * s**2 + jump * np.clip(s, 0.0, None)
+    found = sudden_jump_m_s(time, np.stack([x, 0 * x], axis=1), 0.0603)
+    assert found == pytest.approx(np.array([jump, 0.0]), abs=1e-8)

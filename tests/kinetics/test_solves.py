@@ -134,7 +134,7 @@ def test_a_hammer_and_a_sliding_block_give_e_i_and_mu(mu, at_rest):
     for symbol, truth in (("e", 0.5), ("I", 0.8), ("mu", mu)):
         assert found.value(symbol) == pytest.approx(truth, rel=EXACT)
     assert found.figures["contact_frames"] <= 1  # the block's deceleration is known only after the impact is found
-    assert all("show contact" in note for note in found.notes)
+    assert all("contact and" in note for note in found.notes)
 
 
 def test_a_block_that_stops_within_the_window_is_solved_too():

@@ -57,6 +57,17 @@ def test_every_scene_is_solved_by_its_model(name, phase):
         assert found.sd < 0.02 * true, symbol
 
 
+@pytest.mark.parametrize("phase", [0.05, 0.2, 0.95])
+def test_the_top_of_a_rise_without_noise_is_no_second_impact(phase):
+    """There a swing is so nearly a parabola that two lines, and even a kink, explain it better than a cubic."""
+    kind = scene_class("ballistic_pendulum")
+    truth = simulate(kind(impact_phase=phase), kind.default_camera, 1)
+    n, sigma = len(truth.time_s), np.full(truth.xy_m.shape[:2], np.nan)
+    motion = Motion(truth.points, np.arange(n), truth.time_s, truth.xy_m, sigma)
+    solution = impact_model(truth.model).solve(motion, truth.given, ImpactOptions(**truth.declared))
+    assert solution.value("I") == pytest.approx(truth.impact.inertia_kg_m2, rel=2e-4)
+
+
 @pytest.mark.parametrize("contact_ms", [2.0, 9.0])
 def test_a_contact_that_lasts_is_left_out_and_does_little_harm(contact_ms):
     """What is left is the turning during the contact: physics allows no more than 0.25 rad of it."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from dataclasses import replace
 from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -14,7 +15,25 @@ if TYPE_CHECKING:
     from vml_course.model.solution import ImpactSolution
     from vml_course.usecases.solve_table import Solved
 
-EXAMPLE = "Example: vml solve track.xlsx --model fixed-pivot -g m=0.5kg -g L=0.56m"
+EXAMPLE = """Examples; points, gravity and window are usually those of the scene of the model, and options change them:
+
+vml solve kick.csv -g m=0.5kg -g L=0.56m --plot kick.svg --diagram kick-forces.svg
+
+vml solve bat.csv -g m=0.19kg -g L=0.62m --striker barrel --knee hands --flight always --drive none
+
+vml solve door.csv -g m=0.43kg -g L=0.72m -g a=0.5m --striker edge --knee hinge --gravity 0 --flight never
+--drive none --window 80ms
+
+vml solve hammer.csv --model hammer-block -g m=1.2kg -g L=0.5m --drive none
+
+vml solve rod.csv --model free-rod -g m=0.25kg -g M=0.8kg -g b=0.16m
+
+vml solve pucks.csv --model two-pucks -g m=0.2kg
+
+vml solve bounce.csv --model spin-bounce -g m=0.6kg -g R=0.12m -g k=0.667
+
+vml solve catch.csv --model ballistic-pendulum -g m=58g -g M=0.8kg -g d=0.33m -g c=0.28m
+"""
 
 
 class Drive(StrEnum):
@@ -52,17 +71,30 @@ def solve(
         typer.Option("-g", "--given", metavar="SYMBOL=VALUE", help="A given number with its unit. Repeatable."),
     ] = None,
     model: Annotated[str, typer.Option(help="Impact model.")] = "fixed-pivot",
-    striker: Annotated[str, typer.Option(help="Point that strikes.")] = "foot",
-    struck: Annotated[str, typer.Option(help="Centre of the struck body.")] = "ball",
-    knee: Annotated[str, typer.Option(help="Mark at the pivot: lines need it, joint only checks it.")] = "knee",
-    striker_mark: Annotated[str, typer.Option("--striker-mark", help="Second mark on the body that strikes.")] = "",
-    drive: Annotated[Drive, typer.Option(help="none: no driving torque is declared; four times as sharp in I.")] = (
-        Drive.free
-    ),
-    flight: Annotated[Flight, typer.Option(help="When gravity acts on the struck body.")] = Flight.after,
+    striker: Annotated[
+        str | None, typer.Option(help="Point that strikes; usually foot, head, tail, puck_a ...")
+    ] = None,
+    struck: Annotated[
+        str | None, typer.Option(help="Centre of the struck body; usually ball, block, puck_b ...")
+    ] = None,
+    knee: Annotated[str | None, typer.Option(help="Mark at the pivot: lines need it, joint only checks it.")] = None,
+    striker_mark: Annotated[
+        str | None, typer.Option("--striker-mark", help="Second mark on the body that strikes; a rod needs it.")
+    ] = None,
+    drive: Annotated[
+        Drive | None, typer.Option(help="none: no driving torque is declared; four times as sharp in I. Usually free.")
+    ] = None,
+    flight: Annotated[
+        Flight | None, typer.Option(help="When gravity acts on the struck body; fixed-pivot: after.")
+    ] = None,
     at_rest: Annotated[bool, typer.Option("--at-rest", help="The struck body is at rest before the impact.")] = False,
-    window: Annotated[str, typer.Option(help="Time each side that the joint fit uses.")] = "40 ms",
-    gravity: Annotated[str, typer.Option(help="0 m/s^2 in a view from above.")] = "9.81 m/s^2",
+    window: Annotated[
+        str | None,
+        typer.Option(help="Time each side that the joint fit uses; fixed-pivot: 40 ms, others up to 0.15 s."),
+    ] = None,
+    gravity: Annotated[
+        str | None, typer.Option(help="9.81 m/s^2, or 0 in a view from above, as of rods and pucks.")
+    ] = None,
     scale_sd: Annotated[
         str, typer.Option("--scale-sd", help="Relative standard deviation of the scale, such as 0.4%.")
     ] = "0",
@@ -70,39 +102,61 @@ def solve(
     plot: Annotated[
         Path | None, typer.Option(help="Write positions, angle, fits and residuals there: .svg or .png.")
     ] = None,
+    diagram: Annotated[
+        Path | None,
+        typer.Option(help="Write the free-body diagram there: .svg or .png. -g M=... -g c=... add the pin reaction."),
+    ] = None,
+    contact: Annotated[str, typer.Option(help="Duration of the contact, such as 10ms: adds the mean force.")] = "",
     as_json: Annotated[bool, typer.Option("--json", help="Print the result as JSON.")] = False,
 ) -> None:
     """Find restitution e and moment of inertia I of an impact, each with its uncertainty (one standard deviation)."""
-    from vml_course.kinetics.impact_model import ImpactOptions
+    from vml_course.kinetics.models import impact_model
     from vml_course.model.reading import read_number, read_quantity
+    from vml_course.usecases.diagram_solution import check_diagram, diagram_solution
     from vml_course.usecases.plot_solution import check_plot, plot_solution
     from vml_course.usecases.solve_table import read_given, solve_table
 
     if plot is not None:
         check_plot(plot)
+    if diagram is not None:
+        check_diagram(diagram, model, method.value)
+    contact_s = read_quantity(contact, "time", name="--contact").value if contact else None
     values, given_sd = read_given(given or [])
-    options = ImpactOptions(
-        striker=striker,
-        struck=struck,
-        knee=knee,
-        striker_mark=striker_mark,
-        drive=drive.value,
-        flight=flight.value,
-        at_rest=at_rest,
-        window_s=read_quantity(window, "time", name="--window").value,
-        gravity_m_s2=read_quantity(gravity, "acceleration", name="--gravity").value,
-        given_sd=given_sd,
-        scale_sd=read_number(scale_sd, name="--scale-sd"),
-    )
+    declared = {
+        "striker": striker,
+        "struck": struck,
+        "knee": knee,
+        "striker_mark": striker_mark,
+        "drive": drive and drive.value,
+        "flight": flight and flight.value,
+        "at_rest": at_rest or None,
+        "window_s": window and read_quantity(window, "time", name="--window").value,
+        "gravity_m_s2": _gravity(gravity),
+        "given_sd": given_sd,
+        "scale_sd": read_number(scale_sd, name="--scale-sd"),
+    }
+    told = {name: value for name, value in declared.items() if value is not None}
+    options = replace(impact_model(model).usual, **told)  # type: ignore[arg-type]
     solved = solve_table(table, model, values, options, method.value)
     if plot is not None:
         plot_solution(solved, plot)
+    if diagram is not None:
+        diagram_solution(solved, values, diagram, contact_s)
     if as_json:
         typer.echo(json.dumps(_as_json(solved), indent=1, ensure_ascii=False))
     else:
         _print(solved)
         if not options.scale_sd:
             typer.echo("note: the ± leave out how well the scale is known; say it with --scale-sd, such as 0.4%")
+
+
+def _gravity(text: str | None) -> float | None:
+    """Read an acceleration; nothing needs no unit."""
+    from vml_course.model.reading import read_quantity
+
+    if text is None or text.strip() == "0":
+        return None if text is None else 0.0
+    return read_quantity(text, "acceleration", name="--gravity").value
 
 
 def _as_json(solved: Solved) -> dict[str, Any]:

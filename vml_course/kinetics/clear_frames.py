@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vml_course.errors import NoImpactError, SeveralImpactsError, TooFewFramesError
-from vml_course.kinetics.events import Impact, find_impact
+from vml_course.kinetics.events import Impact, find_impact, sudden_jump_m_s
 from vml_course.kinetics.impact_model import ImpactOptions
 from vml_course.model.arrays import FloatArray, IntArray
 from vml_course.model.motion import Motion
@@ -16,6 +16,7 @@ from vml_course.model.motion import Motion
 LEAST_FRAMES = 5
 USUAL_FRAMES = 10
 SIDES = ("before", "after")
+SECOND_SHARE = 0.1  # of the impact's jump of velocity, from which on another jump is a second impact
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -140,7 +141,8 @@ def _refuse_second_impact(
         second = find_impact(time_s[order], xy_m[order], gravity_before=gravity, gravity_after=gravity, name=name)
     except NoImpactError:
         return
-    if np.hypot(*second.jump_m_s) > 0.1 * np.hypot(*impact.jump_m_s):
+    jump_m_s = sudden_jump_m_s(time_s[order], xy_m[order], second.time_s)
+    if np.hypot(*jump_m_s) > SECOND_SHARE * np.hypot(*impact.jump_m_s):
         hint = "Cut the clip between the impacts, or choose a shorter window."
         first_s, last_s = sorted((impact.time_s, second.time_s))
         got = f"two, at {first_s:.4f} s and {last_s:.4f} s"

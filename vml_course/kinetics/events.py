@@ -91,7 +91,8 @@ def find_impact(
     seen = np.flatnonzero(np.isfinite(xy_m).all(axis=1) & np.isfinite(time_s))
     if gravity_before is not None and gravity_after is not None and np.array_equal(gravity_before, gravity_after):
         # Seen by somebody who falls along, a body that always flies goes straight.
-        xy_m = xy_m - 0.5 * np.multiply.outer((time_s - np.nanmean(time_s)) ** 2, gravity_before)
+        middle_s = float(np.sum(time_s[seen])) / max(len(seen), 1)
+        xy_m = xy_m - 0.5 * np.multiply.outer((time_s - middle_s) ** 2, gravity_before)
         gravity_before = gravity_after = None
     found = split_of(time_s[seen], xy_m[seen])
     if found is None:
@@ -185,7 +186,7 @@ def _is_kink(time_s: FloatArray, xy_m: FloatArray, moment_s: float, least_f: flo
     """Tell a kink from a smooth acceleration: it must beat a parabola clearly, and a cubic by half."""
     t = (time_s - moment_s) / max(float(np.ptp(time_s)), 1e-12)
     parabola = np.stack([np.ones_like(t), t, t**2], axis=1)
-    kink = _misfit(np.column_stack([parabola, np.maximum(t, 0.0)]), xy_m)
+    kink = _misfit(_kinked(t), xy_m)
     floor = len(t) * (1e-9 * float(np.abs(xy_m).max()) + 1e-12) ** 2
     if len(t) < 5:
         return False
@@ -193,6 +194,30 @@ def _is_kink(time_s: FloatArray, xy_m: FloatArray, moment_s: float, least_f: flo
     freedom = max(2 * len(t) - 8, 1)
     cubic = _misfit(np.column_stack([parabola, t**3]), xy_m)
     return gain / 2.0 > least_f * (kink + floor) / freedom and kink < 0.5 * cubic
+
+
+def sudden_jump_m_s(time_s: FloatArray, xy_m: FloatArray, moment_s: float) -> FloatArray:
+    """Return the change of velocity at a moment beside any steady acceleration, shape (2,).
+
+    Of a parabola with a kink through 24 frames each side; the jump between two straight lines would hold all that a
+    smooth swing does to the velocity in that time.
+
+    Parameters
+    ----------
+    time_s, xy_m : float array, shape (n,), (n, 2)
+        NaN where not measured.
+    moment_s : float
+    """
+    seen = np.isfinite(xy_m).all(axis=1) & np.isfinite(time_s)
+    apart, path = time_s[seen] - moment_s, xy_m[seen]
+    near = np.concatenate([np.flatnonzero(apart <= 0)[-HALF_WINDOW:], np.flatnonzero(apart > 0)[:HALF_WINDOW]])
+    span = max(float(np.ptp(apart[near])), 1e-12)
+    return np.asarray(np.linalg.lstsq(_kinked(apart[near] / span), path[near], rcond=None)[0][-1] / span)
+
+
+def _kinked(t: FloatArray) -> FloatArray:
+    """Return the basis of a parabola with a kink at t = 0, the kink's column last."""
+    return np.stack([np.ones_like(t), t, t**2, np.maximum(t, 0.0)], axis=1)
 
 
 def _misfit(basis: FloatArray, xy_m: FloatArray) -> float:

@@ -89,12 +89,15 @@ class ImpactModel(Protocol):
         Symbol of each number that must be given, and its dimension (a key of `UNITS`).
     optional : mapping of str to str
         Symbols that may be given beside.
+    usual : ImpactOptions
+        What is declared when nothing is: names of the points, view, and window of the scene that goes with it.
     """
 
     name: str
     title: str
     given: Mapping[str, str]
     optional: Mapping[str, str]
+    usual: ImpactOptions
 
     def predict(self, parameters: Mapping[str, float], before: Mapping[str, float]) -> dict[str, float]:
         """Return the state after the impact, in closed form."""

@@ -8,7 +8,7 @@ Derivatives come by complex steps, f'(x) = Im f(x + ih) / h, exact to rounding: 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -17,9 +17,10 @@ from scipy.optimize import least_squares
 
 from vml_course.kinetics.clear_frames import Seen
 from vml_course.kinetics.paths import Path, Symbols
-from vml_course.model.arrays import FloatArray
+from vml_course.model.arrays import FloatArray, IntArray
 
 STEP = 1e-30
+MOST_MISPLACED = 2  # frames of a point
 Outcome = Callable[[Symbols], Mapping[str, Any]]
 
 
@@ -157,7 +158,30 @@ class Derived:
 
 
 def fit(problem: Problem) -> Fit:
-    """Fit by weighted least squares (Levenberg-Marquardt)."""
+    """Fit by weighted least squares (Levenberg-Marquardt).
+
+    A frame right beside the impact can have been put on the wrong side of it. The fitted moment tells; such frames are
+    left out, and the rest is fitted again.
+    """
+    found = _fit(problem)
+    watched = tuple(_rightly_sided(point, found["t"]) for point in problem.watched)
+    if all(new is old for new, old in zip(watched, problem.watched, strict=True)):
+        return found
+    start = dict(zip(problem.start, map(float, found.x), strict=True))
+    return _fit(replace(problem, start=start, watched=watched))
+
+
+def _rightly_sided(point: Watched, time_s: float) -> Watched:
+    """Return a point without the frames whose side a moment contradicts; many such frames speak against the moment."""
+    seen = point.seen
+    right = (seen.time_s > time_s) == seen.is_after
+    if right.all() or np.sum(~right) > MOST_MISPLACED:
+        return point
+    kept = Seen(seen.time_s[right], seen.xy_m[right], seen.sigma_m[right], seen.is_after[right])
+    return replace(point, seen=kept)
+
+
+def _fit(problem: Problem) -> Fit:
     count = len(problem.start)
 
     def misfit(x: FloatArray) -> FloatArray:
@@ -192,16 +216,25 @@ def lag1_correlation(residual: FloatArray, problem: Problem) -> float:
     Each coordinate of each point on each side is one series of n frames. Fitting about a line to each
     pulls the estimate r down by (2 + 4 r) / n (Kendall's bias with a trend), which is put back.
     """
-    pairs, squares, start, lengths = 0.0, 0.0, 0, []
+    parts = [residual[rows] for rows in series_of(problem)]
+    pairs = sum(float(part[1:] @ part[:-1]) / max(len(part) - 1, 1) for part in parts)
+    squares = sum(float(part @ part) / len(part) for part in parts)
+    frames = float(np.mean([len(part) for part in parts]))
+    return _unbiased(pairs / squares if squares > 0 else 0.0, frames)
+
+
+def series_of(problem: Problem) -> list[IntArray]:
+    """Return the rows of `residuals` that belong together, in time: each coordinate of each point on each side."""
+    series, start = [], 0
     for point in problem.watched:
-        sides = [side for side in (~point.seen.is_after, point.seen.is_after) if side.any()]
-        lengths += [int(side.sum()) for side in sides]
+        seen = point.seen
         for _ in range(2):
-            series = residual[start : start + len(point.seen.time_s)]
-            start += len(series)
-            for side in sides:
-                part = series[side]
-                pairs += float(part[1:] @ part[:-1]) / max(len(part) - 1, 1)
-                squares += float(part @ part) / len(part)
-    frames, raw = float(np.mean(lengths)), pairs / squares if squares > 0 else 0.0
+            rows = start + np.argsort(seen.time_s, kind="stable")
+            after = seen.is_after[rows - start]
+            series += [part for part in (rows[~after], rows[after]) if len(part)]
+            start += len(rows)
+    return series
+
+
+def _unbiased(raw: float, frames: float) -> float:
     return float(np.clip((frames * raw + 2.0) / max(frames - 4.0, 1.0), 0.0, 0.95))

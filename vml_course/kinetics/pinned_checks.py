@@ -10,6 +10,7 @@ from vml_course.kinetics.impact_model import ImpactOptions
 
 LENGTH_SHARE = 0.02
 DOUBT_SD = 3.0
+ALIKE = 3.0  # how much wider a radius is when the errors of neighbouring frames are alike (AR(1) with 0.8)
 RADIUS_NOTE = 0.003
 
 
@@ -21,13 +22,13 @@ def refuse_misfits(foot: Seen, struck: Seen, length_m: float, options: ImpactOpt
     UpsideDownError
         When the free body falls upwards.
     LengthMismatchError
-        When the given length is not the radius of the striker's path (3 sd and 2 %).
+        When the given length is not the radius of the striker's path (3 sd for errors that are alike, and 2 %).
     """
     refuse_upside_down(struck, options)
     arc = fit_arc(foot.xy_m)
     # In curvatures: those of a short arc are nearly normal, its radii are not.
     off = abs(1.0 / arc.radius_m - 1.0 / length_m) * length_m
-    if off > max(DOUBT_SD * arc.radius_sd_m * length_m / arc.radius_m**2, LENGTH_SHARE):
+    if off > max(DOUBT_SD * ALIKE * arc.radius_sd_m * length_m / arc.radius_m**2, LENGTH_SHARE):
         raise LengthMismatchError("given L", arc.radius_m, arc.radius_sd_m, length_m)
 
 
@@ -57,10 +58,15 @@ def pinned_notes(figures: dict[str, float], options: ImpactOptions) -> list[str]
         "small difference": abs(figures["r"]) < 0.1,
         f"the path of {options.striker} has a radius of {figures['arc_radius_m']:.4g} m, "
         f"{100 * abs(figures['arc_radius_off']):.1f} % {'more' if figures['arc_radius_off'] > 0 else 'less'} than L: "
-        "the scale or the clicked point is a little off": abs(figures["arc_radius_off"]) > RADIUS_NOTE,
+        "the scale or the clicked point is a little off": _radius_is_off(figures),
         _gravity_note(figures, options): _gravity_is_off(figures, options),
     }
     return [note for note, is_true in told.items() if is_true]
+
+
+def _radius_is_off(figures: dict[str, float]) -> bool:
+    sd = figures["arc_radius_sd_m"] / figures["arc_radius_m"]
+    return abs(figures["arc_radius_off"]) > max(RADIUS_NOTE, DOUBT_SD * sd)
 
 
 def _knee_stands_off(figures: dict[str, float]) -> bool:

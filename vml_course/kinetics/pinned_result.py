@@ -60,6 +60,7 @@ def _figures(found: Fit, solving: Solving) -> dict[str, float]:
         "pivot_y_m": found["ky"],
         "theta_impact_rad": found["theta"],
         "arc_radius_m": found["r"],
+        "arc_radius_sd_m": found.sd("r"),
         "arc_radius_off": found["r"] / solving.given["L"] - 1.0,
         "apparent_g_m_s2": fall.value,
         "apparent_g_sd_m_s2": fall.sd,

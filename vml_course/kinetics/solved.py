@@ -19,6 +19,7 @@ UNITS_OF: Mapping[str, str] = {
     "I": "kg m^2", "M": "kg", "omega1": "rad/s", "omega2": "rad/s", "v1": "m/s", "v_f1": "m/s", "v_f2": "m/s",
     "v_b1": "m/s", "v_b2": "m/s", "v_t1": "m/s", "v_t2": "m/s", "J": "N s", "t_impact": "s", "loss": "J", "a": "m",
     "theta_max": "rad",
+    **dict.fromkeys(("v_a1", "v_a2", "v_g1", "v_g2"), "m/s"),
 }  # fmt: skip
 FLOOR = {"e": 0.003, "I": 0.005, "M": 0.005, "mu": 0.005, "v1": 0.003}  # relative: a real measurement's own faults
 DOUBT_SD = 3.0
@@ -76,11 +77,15 @@ def common_notes(figures: Mapping[str, float], estimates: Mapping[str, Estimate]
         "the uncertainties are widened for it": figures["residual_lag1"] > 0.3 and figures["residual_rms_m"] > 1e-6,
         f"e = {e.value:.3f} is outside 0 to 1: the impact would make or lose more energy than there is; "
         "check frame rate, scale, lengths and contact frames": not -DOUBT_SD * e.sd <= e.value <= 1 + DOUBT_SD * e.sd,
-        f"{figures['contact_frames']:.0f} frames next to the impact show contact and were left out": (
-            figures["contact_frames"] > 0
-        ),
+        _contact_note(int(figures["contact_frames"])): figures["contact_frames"] > 0,
     }
     return [note for note, is_true in told.items() if is_true]
+
+
+def _contact_note(frames: int) -> str:
+    if frames == 1:
+        return "1 frame next to the impact shows contact and was left out"
+    return f"{frames} frames next to the impact show contact and were left out"
 
 
 def joint_solution(
@@ -95,12 +100,21 @@ def joint_solution(
         method="joint",
         estimates=estimates,
         correlation_e_I=_correlation(derived, "e", "I"),
-        frame_before=int(solving.motion.frame[solving.frames.impact.last_before]),
+        frame_before=_frame_before(solving, estimates["t_impact"].value),
         notes=(*common_notes(every, estimates), *notes),
         figures={name: float(value) for name, value in every.items()},
         covariance=covariance,
         fitted=fitted_motion(fit, solving),
     )
+
+
+def _frame_before(solving: Solving, impact_s: float) -> int:
+    """Return the last frame before the contact, or before the fitted moment where no frame shows contact."""
+    motion, last = solving.motion, solving.frames.impact.last_before
+    if solving.frames.contact_frames == 0:
+        near = slice(max(last - 1, 0), last + 3)  # the moment is a frame off at most
+        last = near.start + max(int(np.sum(motion.time_s[near] <= impact_s)) - 1, 0)
+    return int(motion.frame[last])
 
 
 def fitted_motion(fit: Fit, solving: Solving) -> Motion:

@@ -42,6 +42,7 @@ class BallisticPendulum:
     title = "A pellet that embeds in a pendulum"
     given: Mapping[str, str] = {"m": "mass", "d": "length", "M": "mass", "c": "length"}
     optional: Mapping[str, str] = {}
+    usual = ImpactOptions(striker="bob", struck="pellet", knee="pivot", flight="always")
 
     def predict(self, parameters: Mapping[str, float], before: Mapping[str, float]) -> dict[str, float]:
         """Return the state after the hit and the height of the swing, in closed form.
@@ -92,7 +93,7 @@ class BallisticPendulum:
         ------
         InputError, NoImpactError, SeveralImpactsError, TooFewFramesError, UnknownNameError
         """
-        options = options or ImpactOptions(striker="bob", struck="pellet", knee="pivot")
+        options = options or self.usual
         check_given(given, self.given)
         if options.gravity_m_s2 <= 0:
             raise OutOfRangeError("gravity", 0.1, 30.0, "m/s^2", options.gravity_m_s2)

@@ -33,6 +33,7 @@ class FixedPivot:
     title = "A body on a fixed pivot and a ball"
     given: Mapping[str, str] = {"m": "mass", "L": "length"}
     optional: Mapping[str, str] = {"a": "length"}
+    usual = ImpactOptions()
 
     def predict(self, parameters: Mapping[str, float], before: Mapping[str, float]) -> dict[str, float]:
         """Return the state after the impact, in closed form.
@@ -71,7 +72,7 @@ class FixedPivot:
         InputError, NoImpactError, SeveralImpactsError, TooFewFramesError, UnknownNameError, UpsideDownError,
         LengthMismatchError
         """
-        options = options or ImpactOptions()
+        options = options or self.usual
         check_given(given, self.given, self.optional)
         frames = clear_frames(motion, options, options.window_s)
         foot, ball = frames.seen(motion, options.striker), frames.seen(motion, options.struck)

@@ -38,6 +38,7 @@ class FreeRod:
     title = "A free rod and a ball that strikes it off its centre"
     given: Mapping[str, str] = {"m": "mass", "M": "mass", "b": "length"}
     optional: Mapping[str, str] = {}
+    usual = ImpactOptions(striker="tail", striker_mark="tip", flight="never", gravity_m_s2=0.0, window_s=0.1)
 
     def predict(self, parameters: Mapping[str, float], before: Mapping[str, float]) -> dict[str, float]:
         """Return the state after the impact, in closed form; velocities along the normal, from the rod to the ball.
@@ -89,7 +90,7 @@ class FreeRod:
         ------
         InputError, NoImpactError, SeveralImpactsError, TooFewFramesError, UnknownNameError
         """
-        options = options or ImpactOptions(gravity_m_s2=0.0, flight="never", striker="tail", striker_mark="tip")
+        options = options or self.usual
         check_given(given, self.given)
         frames = clear_frames(motion, options, options.window_s)
         known = {symbol: given[symbol] for symbol in self.given}

@@ -38,6 +38,7 @@ class HammerBlock:
     title = "A pendulum hammer and a sliding block"
     given: Mapping[str, str] = {"m": "mass", "L": "length"}
     optional: Mapping[str, str] = {}
+    usual = ImpactOptions(striker="head", struck="block", knee="pivot", flight="never", window_s=0.15)
 
     def predict(self, parameters: Mapping[str, float], before: Mapping[str, float]) -> dict[str, float]:
         """Return the state after the impact and the way that the block slides, in closed form.
@@ -80,7 +81,7 @@ class HammerBlock:
         ------
         InputError, NoImpactError, SeveralImpactsError, TooFewFramesError, UnknownNameError, LengthMismatchError
         """
-        options = replace(options or ImpactOptions(), flight="never")
+        options = replace(options or self.usual, flight="never")
         check_given(given, self.given)
         if options.gravity_m_s2 <= 0:
             raise OutOfRangeError("gravity", 0.1, 30.0, "m/s^2", options.gravity_m_s2)

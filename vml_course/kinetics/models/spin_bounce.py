@@ -41,6 +41,7 @@ class SpinBounce:
     title = "A spinning ball that bounces on the floor"
     given: Mapping[str, str] = {"m": "mass", "R": "length", "k": "number"}
     optional: Mapping[str, str] = {}
+    usual = ImpactOptions(striker="rim", flight="always")
 
     def predict(self, parameters: Mapping[str, float], before: Mapping[str, float]) -> dict[str, float]:
         """Return the state after the bounce, in closed form.
@@ -96,7 +97,7 @@ class SpinBounce:
         OutOfRangeError
             When the ball turns more than half a turn from frame to frame, so that its spin cannot be told.
         """
-        options = replace(options or ImpactOptions(striker="rim"), flight="always")
+        options = replace(options or self.usual, flight="always")
         check_given(given, self.given)
         frames = clear_frames(motion, options, options.window_s)
         ball, rim = frames.seen(motion, options.struck), frames.seen(motion, options.striker)

@@ -33,6 +33,7 @@ class TwoPucks:
     title = "Two pucks that collide obliquely"
     given: Mapping[str, str] = {"m": "mass"}
     optional: Mapping[str, str] = {}
+    usual = ImpactOptions(striker="puck_a", struck="puck_b", flight="never", gravity_m_s2=0.0, window_s=0.12)
 
     def predict(self, parameters: Mapping[str, float], before: Mapping[str, float]) -> dict[str, float]:
         """Return the velocities after the impact, in closed form.
@@ -81,7 +82,7 @@ class TwoPucks:
         ------
         InputError, NoImpactError, SeveralImpactsError, TooFewFramesError, UnknownNameError
         """
-        options = options or ImpactOptions(gravity_m_s2=0.0, flight="never")
+        options = options or self.usual
         check_given(given, self.given)
         frames = clear_frames(motion, options, options.window_s)
         first, second = frames.seen(motion, options.striker), frames.seen(motion, options.struck)

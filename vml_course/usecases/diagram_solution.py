@@ -1,0 +1,53 @@
+"""Write the free-body diagram of a solved impact, with the numbers on it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+from vml_course.errors import InputError
+from vml_course.kinetics.forces import PinnedRod, forces_of
+from vml_course.kinetics.free_body import free_body_diagram
+from vml_course.usecases.plot_solution import check_drawing, write_drawing
+from vml_course.usecases.solve_table import Solved
+
+MODELS = ("fixed-pivot", "hammer-block")
+OPTION = "--diagram"
+
+
+def check_diagram(path: Path, model: str, method: str) -> None:
+    """Check before any work that there is a diagram for the model, and that it can be written there.
+
+    Raises
+    ------
+    InputError, FileFormatError, FileMissingError
+    """
+    if model not in MODELS:
+        raise InputError(OPTION, f"a body on a fixed pivot ({' or '.join(MODELS)})", model, "Leave it out.")
+    if method == "lines":
+        raise InputError(OPTION, "a joint solution to draw", "lines alone", "Use --method both or joint.")
+    check_drawing(path, OPTION)
+
+
+def diagram_solution(solved: Solved, given: Mapping[str, float], path: Path, contact_s: float | None = None) -> None:
+    """Write both bodies cut free, with impulse, pin reaction and velocities, to an SVG or PNG file.
+
+    Parameters
+    ----------
+    solved : Solved
+        By the joint method.
+    given : mapping of str to float
+        With the striker's mass `M` and its centre's distance from the pivot `c` the pin reaction is drawn too.
+    path : Path
+    contact_s : float, optional
+        Duration of the contact, for the mean force.
+
+    Raises
+    ------
+    InputError, OutOfRangeError, FileFormatError, FileMissingError
+    """
+    check_diagram(path, solved.main.model, solved.main.method)
+    found = solved.main
+    is_told = "M" in given and "c" in given
+    striker = PinnedRod(given["M"], given["c"], found.value("I")) if is_told else None
+    write_drawing(free_body_diagram(found, forces_of(found, contact_s, striker)), path)
