@@ -48,7 +48,7 @@ def load_sheet(sheet: Sheet, camera: Camera, seed: int) -> Truth:
     )
     failed = [f"{check.name} is {check.value:.3g} (limit {check.limit:g})" for check in checks if not check.passed]
     if failed:
-        raise SceneRefusedError(sheet.name, failed, "strain")
+        raise SceneRefusedError(sheet.name, failed, what="strain")
     return Truth(
         scene=sheet.name,
         parameters=asdict(sheet),
