@@ -10,6 +10,7 @@ from vml_course.usecases.make_video import make_video
 from vml_course.usecases.track_clip import TrackRequest, track_clip
 
 RMS_PX = 0.05
+SETTINGS = {"plate_with_hole": {"block": 31}}  # beside the hole the strain changes within a block: it must be small
 
 
 @pytest.mark.accuracy
@@ -19,7 +20,7 @@ def test_nothing_is_lost_and_every_point_is_found(name, tmp_path):
     made = make_video(kind(), kind.default_camera, Recording(crf=18, noise_grey=2.0), 20, tmp_path)
     truth = made.truth
     seeds = tuple(Seed(point, *truth.point_px(point)) for point in truth.points)
-    track = track_clip(TrackRequest(made.video, seeds)).track
+    track = track_clip(TrackRequest(made.video, seeds, settings=SETTINGS.get(name, {}))).track
     assert int(track.is_lost.sum()) == 0
     error = np.hypot(*np.moveaxis(track.xy_px - truth.xy_px, -1, 0))
     rms = dict(zip(truth.points, np.sqrt(np.mean(error**2, axis=0)), strict=True))

@@ -69,7 +69,7 @@ class PlateWithHole(Sheet):
 
     def points_m(self) -> dict[str, tuple[float, float]]:
         """Return two pairs at the hole, and two pairs far away."""
-        near, far, up = self.radius_m + 0.004, 0.11, 0.05
+        near, far, up = self.radius_m + 0.006, 0.11, 0.05  # a block of the usual size does not see the hole
         return {
             "a": (-near, 0.0), "b": (near, 0.0), "c": (0.0, near), "d": (0.0, -near),
             "e": (-far, up), "f": (far, up), "g": (-far, -0.6 * up), "h": (far, -0.6 * up),
