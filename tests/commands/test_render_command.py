@@ -84,7 +84,7 @@ def test_a_mistake_is_one_line_and_exit_code_2(arguments, words, capsys, tmp_pat
 def test_every_scene_refuses_in_one_line_and_leaves_no_folder(name, capsys, tmp_path):
     mass = next((item for item in quantities_of(scene_class(name)).values() if item.unit == "kg"), None)
     wrong = [
-        ("px_per_m=4000", "outside the picture, px is "),
+        ("origin_x_px=-3900", "outside the picture, px is "),
         ("width_px=641", "width_px: expected an even number of pixels"),
         ("background=beach", "background: expected one of "),
         *(
