@@ -19,7 +19,7 @@ from pathlib import Path
 from statistics import median
 
 import numpy as np
-from support.clips import CASES, POINTS, decode_all, make_clip, radial_rms, to_and_fro, write_long
+from support.clips import CALM, CASES, POINTS, decode_all, make_clip, radial_rms, to_and_fro, write_long
 from support.methods import methods
 from support.plot import chart
 from support.timing import in_turns, middle, middle_ratio
@@ -46,6 +46,7 @@ def main() -> None:
     write_plot(clips, errors, options.out / "tracking-peers.svg")
     compressed = next(clip for clip in clips if clip.case.name == "compressed")
     measure_speed(compressed, write_long(compressed, SPEED_PICTURES, options.clips / "speed.mp4"))
+    measure_calm(make_clip(CALM, options.clips))
     measure_start(compressed)
     measure_estimate(compressed, options.clips)
     if not options.quick:
@@ -133,6 +134,25 @@ def measure_speed(clip, path):
     for name in runs:
         ms = 1e3 * middle(costs[name]).cpu_s / SPEED_PICTURES
         print(f"| {name} | {middle_ratio(costs[name], costs['decode']):.2f} | {ms:.2f} |")
+
+
+def measure_calm(clip):
+    """Compare a whole run with decoding alone where nothing is hit: the clip above has an impact in 49 pictures."""
+    last = clip.truth.impact.frame_before - 1
+    memory = clip.frames()[: last + 1]
+    dic = methods(clip.truth.camera.fps, {})["vml dic"]
+    alone = middle(in_turns({"dic": lambda: dic(memory, clip.true_px[0])}, ROUNDS)["dic"])
+    costs = in_turns(
+        {
+            "decode": lambda: decode_all(clip.video, last),
+            "dic": lambda: track_clip(request(clip, clip.video, end=last)),
+        },
+        ROUNDS,
+    )
+    print(f"\n### Speed without an impact, {len(memory)} pictures, 4 points of 60 x 60 px\n")
+    per_picture = 1e3 * alone.cpu_s / len(memory)
+    print(f"`dic`, pictures in memory, learning the blocks included: {per_picture:.2f} CPU ms a picture")
+    print(f"from file to track: {middle_ratio(costs['dic'], costs['decode']):.2f} times decoding alone")
 
 
 def request(clip, path, **more):

@@ -33,12 +33,13 @@ class Glimpse(NamedTuple):
 
 
 class _Course(NamedTuple):
-    """How far a group has come: its state, what was seen last and in which frame, and its references, shape (p,)."""
+    """How far a group has come: its state, what was seen last and in which frame; references and drifts, shape (p,)."""
 
     state: Any
     sighting: Sighting
     frame: int
     reference: IntArray
+    drift_px: FloatArray
 
 
 def sweep(tracker: Tracker[Any], frames: Iterable[Frame], places: Places) -> Iterator[Glimpse]:
@@ -70,14 +71,18 @@ def sweep(tracker: Tracker[Any], frames: Iterable[Frame], places: Places) -> Ite
 def _next(tracker: Tracker[Any], group: Group, course: _Course | None, frame: Frame, number: int) -> _Course | None:
     if course is None:
         is_here = number == 0 if group.frame is None else frame.index == group.frame
-        here = np.full(len(group.seeds), frame.index)
-        return _Course(*start_at(tracker, frame, group.seeds), frame.index, here) if is_here else None
+        if not is_here:
+            return None
+        count = len(group.seeds)
+        started = start_at(tracker, frame, group.seeds)
+        return _Course(*started, frame.index, np.full(count, frame.index), np.zeros(count))
     if frame.index in group.marks:
         return _place(tracker, course, frame, group.marks[frame.index])
     state, seen = tracker.step(course.state, frame.luma)
     # a block is cut anew at the end of a step; the first match with it is the next one
-    is_new = np.nan_to_num(seen.drift_px) > np.nan_to_num(course.sighting.drift_px)
-    return _Course(state, seen, frame.index, np.where(is_new, course.frame, course.reference))
+    is_new = seen.drift_px > course.drift_px
+    reference = np.where(is_new, course.frame, course.reference)
+    return _Course(state, seen, frame.index, reference, np.fmax(course.drift_px, seen.drift_px))
 
 
 def start_at(tracker: Tracker[Any], frame: Frame, seeds: Sequence[Seed]) -> tuple[Any, Sighting]:
@@ -102,12 +107,12 @@ def _place(tracker: Tracker[Any], course: _Course, frame: Frame, mark: Seed) -> 
     if is_placeable(tracker):
         state, sighting = tracker.place(course.state, frame.luma, here)
         if np.isfinite(sighting.zncc).all():
-            return _Course(state, sighting, frame.index, course.reference)
+            return course._replace(state=state, sighting=sighting, frame=frame.index)
     try:
         anew, _ = tracker.start(frame.luma, here)
     except SeedError:
-        return _Course(state, sighting, frame.index, course.reference)
-    return _Course(anew, sighting, frame.index, np.array([frame.index]))
+        return course._replace(state=state, sighting=sighting, frame=frame.index)
+    return _Course(anew, sighting, frame.index, np.array([frame.index]), np.zeros(1))
 
 
 def _together(frame: Frame, groups: Sequence[Group], courses: Sequence[_Course | None], count: int) -> Glimpse:
