@@ -1,24 +1,33 @@
-"""A course is a folder: its title, its secret, its roster; handouts and gradebook come to lie beside them.
+"""A course is a folder: its settings, its secret, its roster; handouts, gradebook and feedback come to lie beside them.
 
-The secret decides every student's numbers. Whoever reads it can compute all answers, so it is readable
-by its owner only, is never put under version control, and a course whose secret is open is not run.
+The folder may lie in an object store (`s3://bucket/dynamics`). Then the store holds what is handed out and handed in,
+and what must stay private, the secret and the gradebook, lies in a folder of this machine, the course's *home*.
 """
 
 from __future__ import annotations
 
+import hashlib
 import json
 import os
 import re
-import secrets
-import stat
 import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from assignments.errors import CourseError
+from pydantic import ValidationError
 
-COURSE_FILE, SECRET_FILE, ROSTER_FILE, HANDOUTS = "course.toml", ".secret", "roster.csv", "handouts"
-SECRET_BYTES = 32
+from assignments.course_file import CourseFile
+from assignments.errors import CourseError
+from assignments.load import named_mistakes
+from assignments.secret import SECRET_FILE, read_secret, write_secret
+from assignments.terms import Calendar
+from vml_course.errors import FileMissingError
+from vml_course.io.shelf import FolderShelf, Shelf, open_shelf
+
+COURSE_FILE, ROSTER_FILE, HANDOUTS = "course.toml", "roster.csv", "handouts"
+HOME_VARIABLE = "VML_HOME"
+"""Names the folder that holds the homes of courses in object stores; `.vml` in the user's own folder otherwise."""
+
 _TITLE = re.compile(r"[^\x00-\x1f\x7f]{1,200}")
 
 _IGNORED = """\
@@ -30,6 +39,7 @@ _IGNORED = """\
 /inbox/
 /submissions/
 /feedback/
+/exports/
 /roster.csv
 """
 
@@ -40,18 +50,52 @@ Ben Example,ben@example.org
 Chi Example,chi@example.org
 """
 
+_SAMPLE_SETTINGS = """\
+# term = "Spring 2027"
+# time_zone = "Europe/Berlin"     # of the dates below; UTC when not given
+# gradebook = "postgresql+psycopg://user@host/dynamics"     # a file in this folder when not given
+
+# [assignment.soccer-kick]
+# opens = 2027-04-12T08:00:00
+# due = 2027-04-26T23:59:00
+# closes = 2027-05-03T23:59:00    # later work is kept, not graded
+# attempts = 3                    # different contents; 0 is any number
+# counts = "best"                 # or newest, first, mean
+# late = { rule = "linear", share = 0.1, per_hours = 24, grace_minutes = 15, cap = 0.5 }
+
+# [[extension]]                   # names stay out: students go by their pseudonyms
+# student = "k3m9x2ab"
+# assignment = "soccer-kick"      # all assignments when not given
+# hours = 48
+# reason = "ill from 20 to 23 April"
+"""
+
 
 @dataclass(frozen=True)
 class Course:
-    """A course that was opened; printing it does not show the secret."""
+    """A course that was opened; printing it does not show the secret.
+
+    Attributes
+    ----------
+    folder : Path
+        The folder of this machine: secret, gradebook, and where handouts are made.
+    shelf : Shelf
+        Where everything else lies; the same folder unless the course is in an object store.
+    gradebook_url : str
+        SQLAlchemy's URL of the gradebook, "" for a file in `folder`.
+    """
 
     folder: Path
     title: str
     secret: bytes = field(repr=False)
+    term: str = ""
+    calendar: Calendar = field(default_factory=Calendar)
+    gradebook_url: str = field(default="", repr=False)  # it may hold a password
+    shelf: Shelf = field(default_factory=lambda: FolderShelf(Path()), compare=False)
 
     @property
     def roster(self) -> Path:
-        """The list of students, `name,email`."""
+        """The list of students, `name,email`, in the folder of this machine: it holds names."""
         return self.folder / ROSTER_FILE
 
     def handouts(self, assignment_id: str) -> Path:
@@ -59,71 +103,86 @@ class Course:
         return self.folder / HANDOUTS / assignment_id
 
 
-def new_course(folder: Path, title: str = "") -> Course:
-    """Make a course folder with a secret of its own and a roster to fill in.
+def new_course(place: str | Path, title: str = "") -> Course:
+    """Make a course with a secret of its own and a roster to fill in.
 
     What is already in the folder stays as it is.
+
+    Parameters
+    ----------
+    place : str or Path
+        A folder, or the URL of a folder in an object store.
+    title : str
 
     Raises
     ------
     CourseError
         When there is a course already, or the title is no single line.
     """
-    folder = Path(folder)
-    title = title or folder.resolve().name
+    shelf, home = open_shelf(place), home_of(place)
+    title = title or Path(shelf.place()).resolve().name
     if not _TITLE.fullmatch(title):
         raise CourseError("title", "one line of 1 to 200 characters", repr(title[:60]))
-    for name in (COURSE_FILE, SECRET_FILE):
-        if (folder / name).exists():
-            raise CourseError(str(folder), "a folder without a course", f"{name} in it", "Choose another folder.")
-    folder.mkdir(parents=True, exist_ok=True)
-    _write_secret(folder / SECRET_FILE)
-    _write_new(folder / ".gitignore", _IGNORED)
-    _write_new(folder / ROSTER_FILE, _SAMPLE_ROSTER)
-    _write_new(folder / COURSE_FILE, f"title = {json.dumps(title, ensure_ascii=False)}\n")
-    return open_course(folder)
+    if shelf.exists(COURSE_FILE) or (home / SECRET_FILE).exists():
+        found = COURSE_FILE if shelf.exists(COURSE_FILE) else SECRET_FILE
+        raise CourseError(str(place), "a folder without a course", f"{found} in it", "Choose another folder.")
+    home.mkdir(parents=True, exist_ok=True, mode=0o777 if _is_folder(shelf) else 0o700)
+    write_secret(home / SECRET_FILE)
+    _write_new(home / ".gitignore", _IGNORED)
+    _write_new(home / ROSTER_FILE, _SAMPLE_ROSTER)
+    shelf.write(COURSE_FILE, f"title = {json.dumps(title, ensure_ascii=False)}\n{_SAMPLE_SETTINGS}".encode())
+    return open_course(place)
 
 
-def open_course(folder: Path) -> Course:
-    """Open a course folder.
+def open_course(place: str | Path) -> Course:
+    """Open a course.
 
     Raises
     ------
     CourseError
-        When it is no course, or others can read its secret.
+        When it is no course, its settings have mistakes, or its secret is open to others.
     """
-    folder = Path(folder)
+    shelf, home = open_shelf(place), home_of(place)
+    settings = _settings(shelf, place)
+    return Course(
+        folder=home,
+        title=settings.title,
+        secret=read_secret(home / SECRET_FILE),
+        term=settings.term or "",
+        calendar=settings.calendar(),
+        gradebook_url=settings.gradebook,
+        shelf=shelf,
+    )
+
+
+def home_of(place: str | Path) -> Path:
+    """Return the folder of this machine that holds the private part of a course."""
+    shelf = open_shelf(place)
+    if isinstance(shelf, FolderShelf):
+        return shelf.folder
+    url = shelf.place()
+    homes = Path(os.environ.get(HOME_VARIABLE) or Path.home() / ".vml")
+    name = re.sub(r"[^A-Za-z0-9]+", "-", url).strip("-")[-40:]
+    return homes / f"{name}-{hashlib.sha256(url.encode()).hexdigest()[:8]}"
+
+
+def _is_folder(shelf: Shelf) -> bool:
+    return isinstance(shelf, FolderShelf)
+
+
+def _settings(shelf: Shelf, place: str | Path) -> CourseFile:
+    path = shelf.place(COURSE_FILE)
     try:
-        content = tomllib.loads((folder / COURSE_FILE).read_text(encoding="utf-8"))
-    except OSError:
-        hint = f"Make one with: vml course new {folder}"
-        raise CourseError(str(folder), f"a course folder with {COURSE_FILE}", "none", hint) from None
+        content = tomllib.loads(shelf.read(COURSE_FILE).decode("utf-8"))
+        return CourseFile.model_validate(content)
+    except FileMissingError:
+        hint = f"Make one with: vml course new {place}"
+        raise CourseError(str(place), f"a course folder with {COURSE_FILE}", "none", hint) from None
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise CourseError(str(folder / COURSE_FILE), "TOML in UTF-8", error) from error
-    if not isinstance(content.get("title"), str):
-        raise CourseError(str(folder / COURSE_FILE), "a title", repr(content.get("title")))
-    return Course(folder, content["title"], _read_secret(folder / SECRET_FILE))
-
-
-def _write_secret(path: Path) -> None:
-    """Create the secret; never over an old one, never readable by others, not even for a moment."""
-    handle = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
-    with os.fdopen(handle, "w", encoding="ascii") as file:
-        file.write(secrets.token_hex(SECRET_BYTES) + "\n")
-
-
-def _read_secret(path: Path) -> bytes:
-    try:
-        mode, text = path.stat().st_mode, path.read_text(encoding="ascii", errors="replace").strip()
-    except OSError as error:
-        hint = "Without it the variants that were handed out cannot be drawn again: restore it from a backup."
-        raise CourseError(str(path), "the course's secret", error.strerror, hint) from error
-    if os.name == "posix" and stat.S_IMODE(mode) & 0o077:
-        hint = f"Who reads it can compute every answer. Run: chmod 600 {path}"
-        raise CourseError(str(path), "a file that only you can read", f"mode {stat.S_IMODE(mode):03o}", hint)
-    if not re.fullmatch(rf"[0-9a-f]{{{2 * SECRET_BYTES}}}", text):
-        raise CourseError(str(path), f"{2 * SECRET_BYTES} hexadecimal digits", f"{len(text)} other characters")
-    return bytes.fromhex(text)
+        raise CourseError(path, "TOML in UTF-8", error) from error
+    except ValidationError as error:
+        first = named_mistakes(error, content)[0]
+        raise CourseError(f"{path}, {first.name}", first.expected, first.got, first.hint) from error
 
 
 def _write_new(path: Path, text: str) -> None:

@@ -60,14 +60,14 @@ def load_folder(folder: Path) -> Assignment:
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise AssignmentFileError(place, [InputError("file", "TOML in UTF-8", error)]) from error
     except ValidationError as error:
-        raise AssignmentFileError(place, _named(error, content)) from error
+        raise AssignmentFileError(place, named_mistakes(error, content)) from error
     mistakes = tuple(mistakes_in(assignment))
     if mistakes:
         raise AssignmentFileError(place, mistakes)
     return assignment
 
 
-def _named(error: ValidationError, content: dict[str, Any]) -> list[InputError]:
+def named_mistakes(error: ValidationError, content: dict[str, Any]) -> list[InputError]:
     """Translate pydantic's findings: key, expected, got."""
     return [
         _mistake(finding["type"], finding["loc"], finding["msg"], finding["input"], content)
@@ -81,6 +81,8 @@ def _mistake(kind: str, place: tuple[int | str, ...], message: str, got: Any, co
         return InputError(key, "no such key", repr(got)[:60], "Is it misspelt?")
     if kind == "missing":
         return InputError(key, "a value", "none")
+    if kind == "value_error":  # of a validator of ours: what was expected, in words
+        return InputError(key or "file", message.removeprefix("Value error, "), "what is there")
     return InputError(key, _expectation(message), repr(got)[:60])
 
 

@@ -1,13 +1,14 @@
 """The instructor's book: who has which variant, what is true of it, what came in, what it earned.
 
-A SQLite file in the course folder. Runs, keys and events are only added, never changed: the effective grade is
-what the newest run on the newest attempt says, with what a person decided about that attempt.
+A SQLite file in the course folder, or PostgreSQL by URL. Runs, keys and events are only added, never changed: the
+effective grade is worked out from them, from what a person decided, and from the terms of the course.
 """
 
 from __future__ import annotations
 
 import hashlib
 import json
+from collections.abc import Iterable, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any, Self
@@ -17,25 +18,24 @@ from sqlalchemy import Engine, insert, select
 from assignments import key as keys
 from assignments.course import Course
 from assignments.model import AnswerKey, Assignment, Variant
+from assignments.terms import Calendar
 from grader import tables
 from grader.adjust import Adjustment, check_adjustment
+from grader.database import open_database
+from grader.enrolment import ACTIVE, Arrival, Student, enrol_all, forget, set_status, students_of
 from grader.errors import NoKeyError, UnknownVariantError
 from grader.events import is_whole, note, now
 from grader.ledger import (
     Row,
-    Student,
     add_adjustment,
     add_run,
     effective_rows,
-    enrol,
     newest_attempt,
-    open_engine,
-    students_of,
     submission_of,
     variant_of,
 )
 from grader.model import Grade, Submission
-from grader.roster import read_roster
+from grader.roster import Enrolled, read_roster
 from vml_course.errors import InputError
 
 __all__ = ["Gradebook", "Row", "Student"]
@@ -46,15 +46,19 @@ FILE = "gradebook.db"
 class Gradebook:
     """An open gradebook; use it in a `with` block."""
 
-    def __init__(self, engine: Engine) -> None:
-        self._engine = engine
+    def __init__(self, engine: Engine, calendar: Calendar | None = None) -> None:
+        self._engine, self._calendar = engine, calendar or Calendar()
         self._reader = engine.execution_options(reads=True)
-        tables.metadata.create_all(engine)
 
     @classmethod
     def open(cls, course: Course) -> Self:
-        """Open the gradebook of a course, and make it on first use."""
-        return cls(open_engine(course.folder / FILE))
+        """Open the gradebook of a course, and make it on first use.
+
+        Raises
+        ------
+        DatabaseError
+        """
+        return cls(open_database(course.folder / FILE, course.gradebook_url), course.calendar)
 
     def __enter__(self) -> Self:
         return self
@@ -68,21 +72,53 @@ class Gradebook:
 
     # ------------------------------------------------------------ students
 
+    def take_in(self, people: Sequence[Enrolled], source: str = "roster") -> tuple[Arrival, ...]:
+        """Take a class list in; who is new gets a random pseudonym.
+
+        Returns
+        -------
+        tuple of Arrival
+            A line of the list each, then the students who are not on it.
+
+        Raises
+        ------
+        RosterError
+        """
+        with self._engine.begin() as connection:
+            return enrol_all(connection, people, source)
+
     def students_from_roster(self, path: Path) -> tuple[Student, ...]:
-        """Take a class list in, and return its students in order; who is new gets a random pseudonym.
+        """Take a class list in from its file, and return its students in order.
 
         Raises
         ------
         FileMissingError, RosterError
         """
-        enrolled = read_roster(path)
-        with self._engine.begin() as connection:
-            return tuple(enrol(connection, person) for person in enrolled)
+        arrivals = self.take_in(read_roster(path), path.name)
+        return tuple(arrival.student for arrival in arrivals if arrival.status != "not listed")
 
-    def students(self) -> tuple[Student, ...]:
-        """Return all students in the order in which they came."""
+    def students(self, *, active_only: bool = False) -> tuple[Student, ...]:
+        """Return the students in the order in which they came."""
         with self._reader.connect() as connection:
-            return tuple(students_of(connection).values())
+            found = students_of(connection).values()
+        return tuple(student for student in found if student.status == ACTIVE or not active_only)
+
+    def set_status(self, pid: str, status: str) -> None:
+        """Mark a student as active or dropped; grades stay.
+
+        Raises
+        ------
+        InputError
+        """
+        if pid not in {student.pid for student in self.students()}:
+            raise InputError("student", "a pseudonym of this course", repr(pid), "See: vml roster list.")
+        with self._engine.begin() as connection:
+            set_status(connection, pid, status)
+
+    def forget_names(self, pids: Iterable[str]) -> int:
+        """Remove names and addresses; grades and statistics stay. Return of how many students."""
+        with self._engine.begin() as connection:
+            return forget(connection, pids)
 
     # ------------------------------------------------------------ keys
 
@@ -91,7 +127,7 @@ class Gradebook:
         text = json.dumps(keys.to_json(key), sort_keys=True)
         sha = hashlib.sha256(text.encode()).hexdigest()
         with self._engine.begin() as connection:
-            at = variant_of(connection, variant)
+            at = variant_of(connection, variant, key.video_sha256)
             known = select(tables.answer_key.c.id).where(
                 tables.answer_key.c.variant_id == at, tables.answer_key.c.key_sha256 == sha
             )
@@ -137,13 +173,14 @@ class Gradebook:
 
     # ------------------------------------------------------------ runs
 
-    def record_run(self, submission: Submission, grade: Grade) -> int:
+    def record_run(self, submission: Submission, grade: Grade, received_at: str = "") -> int:
         """Record a grade, whole or not at all; return the attempt.
 
-        The same content again is the same attempt; the run is added all the same.
+        The same content again is the same attempt; the run is added all the same. `received_at` is when it was
+        handed in, in ISO 8601 with a zone; now when nobody knows.
         """
         with self._engine.begin() as connection:
-            at, attempt = submission_of(connection, submission)
+            at, attempt = submission_of(connection, submission, received_at)
             add_run(connection, at, submission.code, grade)
             data = {"attempt": attempt, "points": grade.points, "file_sha256": submission.file_sha256}
             note(connection, "graded", submission.code, data)
@@ -160,7 +197,8 @@ class Gradebook:
         """
         check_adjustment(assignment, adjustment)
         with self._engine.begin() as connection:
-            at = newest_attempt(connection, assignment.id, pid)
+            counting = {r.student.pid: r.attempt for r in effective_rows(connection, self._calendar, assignment.id)}
+            at = newest_attempt(connection, assignment.id, pid, counting.get(pid))
             if at is None:
                 hint = "See: vml gradebook show."
                 raise InputError(pid, f"a student whose {assignment.id} was graded", "none", hint)
@@ -178,9 +216,9 @@ class Gradebook:
             note(connection, "unreadable", file_sha256, {"reason": reason})
 
     def rows(self, assignment_id: str | None = None) -> tuple[Row, ...]:
-        """Return the effective grades: of each student and assignment the newest run on the newest attempt."""
+        """Return the effective grades of each student and assignment, by the terms of the course."""
         with self._reader.connect() as connection:
-            return effective_rows(connection, assignment_id)
+            return effective_rows(connection, self._calendar, assignment_id)
 
     def is_whole(self) -> bool:
         """Tell whether the chain of events is unbroken."""

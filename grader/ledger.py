@@ -2,37 +2,24 @@
 
 from __future__ import annotations
 
+import datetime as dt
 import json
-import os
-import secrets
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field, fields, replace
-from pathlib import Path
 from typing import Any
 
-from sqlalchemy import Connection, Engine, create_engine, func, insert, select
-from sqlalchemy import event as engine_event
+from sqlalchemy import Connection, func, insert, select
 
 from assignments.model import Variant
+from assignments.terms import Calendar
 from grader import tables
 from grader.adjust import Adjustment, Standing, settle
+from grader.effective import Attempt, effective
+from grader.enrolment import Student, students_of
 from grader.errors import UnknownVariantError
-from grader.events import note, now
+from grader.events import now
 from grader.grade import GRADER_VERSION
 from grader.model import Grade, Outcome, Submission, overall
-from grader.roster import Enrolled
-
-_ALPHABET = "23456789abcdefghjkmnpqrstvwxyz"  # nothing that can be mistaken for something else
-_PID_LENGTH = 8
-
-
-@dataclass(frozen=True)
-class Student:
-    """A student: pseudonym for every file, name and address for the instructor's eyes."""
-
-    pid: str
-    name: str = ""
-    email: str = ""
 
 
 @dataclass(frozen=True)
@@ -48,9 +35,17 @@ class Row:
     reasons : tuple of str
         Why a person should look.
     attempts : int
-        How many different contents came in; the newest counts.
+        How many different contents came in.
     adjustments : tuple of str
         What a person decided, in words.
+    earned : float
+        Points of the attempt that counts, before lateness.
+    late_share : float
+        The part that lateness took off.
+    ignored : tuple of int
+        Attempts that do not count.
+    run_id : int
+        The run that speaks for the attempt.
     """
 
     student: Student
@@ -65,6 +60,10 @@ class Row:
     reasons: tuple[str, ...] = ()
     attempts: int = 1
     adjustments: tuple[str, ...] = ()
+    earned: float = 0.0
+    late_share: float = 0.0
+    ignored: tuple[int, ...] = ()
+    run_id: int = 0
 
     @property
     def is_provisional(self) -> bool:
@@ -72,65 +71,8 @@ class Row:
         return Outcome.UNSURE in self.outcomes.values()
 
 
-def open_engine(path: Path) -> Engine:
-    """Open the database file: only for its owner, write-ahead log, foreign keys on, patient with other writers."""
-    _keep_private(path)
-    engine = create_engine(f"sqlite:///{path}", connect_args={"timeout": 10})
-
-    @engine_event.listens_for(engine, "connect")
-    def _settings(connection: Any, _: Any) -> None:
-        connection.isolation_level = None  # SQLAlchemy says BEGIN itself, below
-        for setting in ("journal_mode=WAL", "foreign_keys=ON", "busy_timeout=10000", "synchronous=NORMAL"):
-            connection.execute(f"PRAGMA {setting}")
-
-    @engine_event.listens_for(engine, "begin")
-    def _begin(connection: Connection) -> None:
-        # Take the write lock at once: two graders then queue instead of failing halfway.
-        reads = connection.get_execution_options().get("reads", False)
-        connection.exec_driver_sql("BEGIN" if reads else "BEGIN IMMEDIATE")
-
-    return engine
-
-
-def _keep_private(path: Path) -> None:
-    """Names and answers lie in it: nobody else may read it, not even for a moment."""
-    if not path.parent.is_dir():
-        return
-    os.close(os.open(path, os.O_RDWR | os.O_CREAT, 0o600))
-    if path.stat().st_mode & 0o077:
-        path.chmod(0o600)
-
-
-def enrol(connection: Connection, person: Enrolled) -> Student:
-    """Return a person of a class list, with a new random pseudonym on first sight."""
-    identity = tables.student_identity
-    kind, value = ("email", person.email) if person.email else ("name", person.name)
-    same = (identity.c.kind == kind) & (func.lower(identity.c.value) == value.lower())
-    at = connection.scalar(select(identity.c.student_id).where(same))
-    if at is None:
-        pid = "".join(secrets.choice(_ALPHABET) for _ in range(_PID_LENGTH))
-        made = connection.execute(insert(tables.student).values(pid=pid, created_at=now()))
-        at = made.inserted_primary_key[0]  # type: ignore[index]  # one row was inserted
-        for kind_, value_ in (("name", person.name), ("email", person.email)):
-            if value_:
-                connection.execute(insert(identity).values(student_id=at, kind=kind_, value=value_))
-        note(connection, "enrolled", pid, {})
-    return students_of(connection)[int(at)]
-
-
-def students_of(connection: Connection) -> dict[int, Student]:
-    """Return all students by id."""
-    identities: dict[int, dict[str, str]] = {}
-    for row in connection.execute(select(tables.student_identity)).mappings():
-        identities.setdefault(row["student_id"], {})[row["kind"]] = row["value"]
-    return {
-        row["id"]: Student(row["pid"], **identities.get(row["id"], {}))
-        for row in connection.execute(select(tables.student).order_by(tables.student.c.id)).mappings()
-    }
-
-
-def variant_of(connection: Connection, variant: Variant) -> int:
-    """Return the id of a variant, adding it on first sight."""
+def variant_of(connection: Connection, variant: Variant, video_sha256: str) -> int:
+    """Return the id of a variant, adding it on first sight with everything that was drawn: it is never drawn again."""
     found = connection.scalar(select(tables.variant.c.id).where(tables.variant.c.code == variant.code))
     if found is not None:
         return int(found)
@@ -141,6 +83,8 @@ def variant_of(connection: Connection, variant: Variant) -> int:
         "student_id": _get_or_add(connection, tables.student, pid=variant.student, created_at=now()),
         "code": variant.code,
         "issued_at": now(),
+        "variant_json": json.dumps(asdict(variant), sort_keys=True),
+        "video_sha256": video_sha256,
     }
     return _add(connection, tables.variant, line)
 
@@ -156,8 +100,11 @@ def _add(connection: Connection, table: Any, line: Mapping[str, Any]) -> int:
     return int(made.inserted_primary_key[0])  # type: ignore[index]  # one row was inserted
 
 
-def submission_of(connection: Connection, submission: Submission) -> tuple[int, int]:
-    """Return id and attempt of a submission; the same content again is the same attempt."""
+def submission_of(connection: Connection, submission: Submission, received_at: str = "") -> tuple[int, int]:
+    """Return id and attempt of a submission; the same content again is the same attempt.
+
+    `received_at` is when it was handed in (ISO 8601 with a zone), now when nobody knows.
+    """
     table = tables.submission
     at = connection.scalar(select(tables.variant.c.id).where(tables.variant.c.code == submission.code))
     if at is None:
@@ -170,7 +117,7 @@ def submission_of(connection: Connection, submission: Submission) -> tuple[int, 
     line = {
         "variant_id": at,
         "attempt": newest + 1,
-        "received_at": now(),
+        "received_at": received_at or now(),
         "file_sha256": submission.file_sha256,
         "content_sha256": submission.content_sha256,
         "original_name": submission.name,
@@ -208,33 +155,57 @@ def add_run(connection: Connection, submission_id: int, code: str, grade: Grade)
         connection.execute(insert(tables.criterion_score).values(**score))
 
 
-def effective_rows(connection: Connection, assignment_id: str | None) -> tuple[Row, ...]:
-    """Return of each student and assignment what the newest run on the newest attempt says.
+def effective_rows(connection: Connection, calendar: Calendar, assignment_id: str | None = None) -> tuple[Row, ...]:
+    """Return of each student and assignment what counts: a pure function of runs, decisions and terms.
 
-    Attempts are as old as the first arrival of their content, so an old file that is graded again stays old.
+    Of each attempt its newest run speaks. Attempts are as old as the first arrival of their content, so an old file
+    that is graded again stays old.
     """
     joined = tables.grade_run.join(tables.submission).join(tables.variant).join(tables.assignment)
     wanted = select(
-        tables.grade_run, tables.submission.c.attempt, tables.assignment.c.slug, tables.variant.c.student_id
+        tables.grade_run,
+        tables.submission.c.attempt,
+        tables.submission.c.received_at,
+        tables.assignment.c.slug,
+        tables.variant.c.student_id,
     ).select_from(joined)
     if assignment_id is not None:
         wanted = wanted.where(tables.assignment.c.slug == assignment_id)
-    newest: dict[tuple[str, int], Any] = {}
-    attempts: dict[tuple[str, int], set[int]] = {}
-    for row in connection.execute(wanted.order_by(tables.submission.c.id, tables.grade_run.c.id)).mappings():
-        whose = (row["slug"], row["student_id"])
-        newest[whose] = row
-        attempts.setdefault(whose, set()).add(row["submission_id"])
+    newest: dict[tuple[str, int], dict[int, Any]] = {}
+    for run in connection.execute(wanted.order_by(tables.submission.c.attempt, tables.grade_run.c.id)).mappings():
+        newest.setdefault((run["slug"], run["student_id"]), {})[run["submission_id"]] = run
     people = students_of(connection)
-    rows = (replace(_row(connection, people[w[1]], newest[w]), attempts=len(attempts[w])) for w in sorted(newest))
-    return tuple(rows)
+    return tuple(
+        _counted(connection, people[whose[1]], calendar, list(newest[whose].values())) for whose in sorted(newest)
+    )
 
 
-def newest_attempt(connection: Connection, assignment_id: str, pid: str) -> int | None:
-    """Return the id of the attempt that counts, None when nothing was graded."""
+def _counted(connection: Connection, student: Student, calendar: Calendar, runs: Sequence[Any]) -> Row:
+    """Return what counts of a student's attempts, given the newest run on each."""
+    rows = {run["attempt"]: _row(connection, student, run) for run in runs}
+    attempts = [
+        Attempt(run["attempt"], dt.datetime.fromisoformat(run["received_at"]), rows[run["attempt"]].points)
+        for run in runs
+    ]
+    result = effective(attempts, calendar.terms_of(runs[0]["slug"], student.pid))
+    return replace(
+        rows[result.attempt],
+        attempts=len(attempts),
+        earned=result.earned,
+        late_share=result.late_share,
+        points=result.points,
+        ignored=result.ignored,
+    )
+
+
+def newest_attempt(connection: Connection, assignment_id: str, pid: str, number: int | None = None) -> int | None:
+    """Return the id of a student's newest attempt, or of the one with this number; None when it was never graded."""
     joined = tables.grade_run.join(tables.submission).join(tables.variant).join(tables.assignment).join(tables.student)
     mine = (tables.assignment.c.slug == assignment_id) & (tables.student.c.pid == pid)
-    found = connection.scalar(select(func.max(tables.submission.c.id)).select_from(joined).where(mine))
+    if number is not None:
+        mine &= tables.submission.c.attempt == number
+    newest = select(tables.submission.c.id).select_from(joined).where(mine).order_by(tables.submission.c.attempt.desc())
+    found = connection.scalar(newest.limit(1))
     return None if found is None else int(found)
 
 
@@ -251,8 +222,10 @@ def _row(connection: Connection, student: Student, run: Mapping[str, Any]) -> Ro
         assignment_id=run["slug"],
         attempt=run["attempt"],
         points=run["points"],
+        earned=run["points"],
         out_of=run["out_of"],
         status=run["status"],
+        run_id=run["id"],
         graded_at=run["created_at"],
         outcomes={question: _overall(found) for question, found in by_question.items()},
         mistakes=tuple(dict.fromkeys(mistakes)),

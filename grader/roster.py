@@ -1,29 +1,60 @@
-"""The class list: a table of names and e-mail addresses, as a person or a learning platform writes it."""
+"""The class list, as a person or a learning platform writes it: Canvas, Moodle, Blackboard, Gradescope, plain CSV.
+
+Which it is shows in the headings. Headings in other languages are understood by their content: the column that
+holds e-mail addresses, the columns of names beside it.
+"""
 
 from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Mapping
-from dataclasses import dataclass
+import re
+import unicodedata
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from grader.errors import RosterError
 from vml_course.errors import FileMissingError
 
 _LARGEST_BYTES = 5_000_000
+_LONGEST_CELL = 200
+
+STRONG = ("email", "sis_id", "login", "canvas_id", "moodle_participant")
+"""Kinds of identity that belong to one person only; a name may belong to several."""
+
+_HEADINGS: Mapping[str, tuple[str, ...]] = {
+    "name": ("name", "full name", "student", "student name", "vollständiger name", "nom complet", "nombre completo"),
+    "first": ("first name", "firstname", "given name", "vorname", "prénom", "nombre", "nome", "voornaam"),
+    "last": ("last name", "lastname", "surname", "family name", "nachname", "nom", "apellido(s)", "apellidos",
+             "apellido", "cognome", "achternaam"),
+    "email": ("email", "e-mail", "email address", "e-mail address", "e-mail-adresse", "mail", "adresse de courriel",
+              "dirección de correo", "correo electrónico", "indirizzo email"),
+    "sis_id": ("sis user id", "id number", "idnumber", "student id", "sid", "matrikelnummer", "id-nummer",
+               "numéro d'identification", "número de id"),
+    "login": ("sis login id", "username", "login", "user name", "anmeldename", "nom d'utilisateur"),
+    "participant": ("identifier", "id", "id.", "identifiant", "identificador", "identificatore"),
+}  # fmt: skip
+_PARTICIPANT = re.compile(r"^\D*?\s?(\d{1,12})$")
+_NOBODY = re.compile(r"\s*(points possible|student, test|test student)\s*", re.IGNORECASE)
 
 
 @dataclass(frozen=True)
 class Enrolled:
-    """One line of a roster."""
+    """One line of a class list; `ids` holds what the platform knows the student by, by kind."""
 
     name: str
     email: str
+    ids: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def strong(self) -> dict[str, str]:
+        """Everything that belongs to this person only, by kind."""
+        return {**({"email": self.email} if self.email else {}), **self.ids}
 
 
 def read_roster(path: Path) -> tuple[Enrolled, ...]:
-    """Read a CSV with the columns `name` and `email` (comma, semicolon or tab).
+    """Read a class list (CSV with comma, semicolon or tab; UTF-8, UTF-16 or Windows-1252).
 
     Raises
     ------
@@ -34,51 +65,117 @@ def read_roster(path: Path) -> tuple[Enrolled, ...]:
         raise FileMissingError(path.name, "a roster", "no such file", hint)
     if path.stat().st_size > _LARGEST_BYTES:
         raise RosterError(path.name, "a class list", "a file of several megabytes")
-    return _enrolled(path.name, _text(path))
+    return parse_roster(path.name, decoded(path.read_bytes()))
 
 
-def _text(path: Path) -> str:
+def decoded(data: bytes) -> str:
+    """Return the text of a CSV in any of the encodings that platforms and Excel write."""
+    if data.startswith((b"\xff\xfe", b"\xfe\xff")):
+        return data.decode("utf-16", errors="replace")
     try:
-        return path.read_text(encoding="utf-8-sig")
+        return data.decode("utf-8-sig")
     except UnicodeDecodeError:
-        return path.read_text(encoding="cp1252", errors="replace")
+        return data.decode("cp1252", errors="replace")
 
 
-def _enrolled(name: str, text: str) -> tuple[Enrolled, ...]:
-    first = text.partition("\n")[0]
-    delimiter = max(",;\t", key=first.count)
-    rows = csv.DictReader(io.StringIO(text), delimiter=delimiter)
-    columns = {(column or "").strip().lower(): column for column in rows.fieldnames or ()}
-    if not {"name", "email"} <= columns.keys():
-        raise RosterError(name, "the columns name,email", ", ".join(columns) or "an empty file")
+def parse_roster(name: str, text: str) -> tuple[Enrolled, ...]:
+    """Read the text of a class list; `name` is for messages.
+
+    Raises
+    ------
+    RosterError
+    """
+    headings, rows = _table(name, text)
+    columns = _columns(headings, [cells for _, cells in rows])
+    if not {"name", "first", "last"} & columns.keys():
+        raise RosterError(name, "the columns name,email", ", ".join(headings) or "an empty file")
     found = []
-    for row in rows:
-        cells = {column: (row[columns[column]] or "").strip() for column in ("name", "email")}
-        _check_row(f"{name}, line {rows.line_num}", cells, row.get(None))
-        if any(cells.values()):
-            found.append(Enrolled(" ".join(cells["name"].split()), cells["email"]))
+    for line, cells in rows:
+        if any(cells) and not _NOBODY.fullmatch(cells[0]):
+            found.append(_student(f"{name}, line {line}", cells, columns, len(headings)))
     if not found:
         raise RosterError(name, "at least one student", "the columns only", "Write one line for each: name,email.")
     return _distinct(name, found)
 
 
-def _check_row(where: str, cells: Mapping[str, str], beyond: object) -> None:
-    """Refuse a line without a name, and one with more cells than columns: a name with a comma was not quoted."""
-    if isinstance(beyond, list) and any(beyond):
+def folded(text: str) -> str:
+    """Return a text as it is compared: one way to write accents, no case, single spaces."""
+    return " ".join(unicodedata.normalize("NFC", text).casefold().split())
+
+
+def _table(name: str, text: str) -> tuple[list[str], list[tuple[int, list[str]]]]:
+    first = text.partition("\n")[0]
+    reader = csv.reader(io.StringIO(text), delimiter=max(",;\t", key=first.count))
+    try:
+        rows = [(reader.line_num, [cell.strip() for cell in cells]) for cells in reader]
+    except csv.Error as error:
+        raise RosterError(name, "a table of comma-separated values", str(error)) from error
+    return (rows[0][1], rows[1:]) if rows else ([], [])
+
+
+# ---------------------------------------------------------------- which column is which
+
+
+def _columns(headings: Sequence[str], rows: Sequence[Sequence[str]]) -> dict[str, int]:
+    """Return the column of each kind, by heading first, by content where no heading is known."""
+    words = [folded(heading.strip('"')) for heading in headings]
+    found: dict[str, int] = {}
+    for kind, known in _HEADINGS.items():
+        at = next((words.index(word) for word in known if word in words), None)
+        if at is not None and at not in found.values():
+            found[kind] = at
+    if "email" not in found:
+        at = next((k for k in range(len(words)) if _holds_addresses(rows, k)), None)
+        if at is not None and at not in found.values():
+            found["email"] = at
+    if {"name", "participant"} <= found.keys() and "section" in words:  # Canvas: its `ID` is the user's number
+        found["canvas_id"] = found.pop("participant")
+    return found
+
+
+def _holds_addresses(rows: Iterable[Sequence[str]], column: int) -> bool:
+    cells = [row[column] for row in rows if column < len(row) and row[column]]
+    return bool(cells) and sum("@" in cell for cell in cells) >= 0.8 * len(cells)
+
+
+# ---------------------------------------------------------------- one student
+
+
+def _student(where: str, cells: Sequence[str], columns: Mapping[str, int], width: int) -> Enrolled:
+    if any(cells[width:]):
         hint = 'Put a name that holds a comma in quotes: "Doe, Jane",jane@example.org'
         raise RosterError(where, "as many cells as columns", "more", hint)
-    if cells["email"] and not cells["name"]:
-        raise RosterError(where, "a name", f"only {cells['email'][:60]!r}")
-    if cells["email"] and "@" not in cells["email"]:
+    said = {kind: _cell(where, cells, at) for kind, at in columns.items()}
+    name = said.get("name") or " ".join(filter(None, (said.get("first"), said.get("last"))))
+    login = said.get("login", "")
+    email = said.get("email", "") or (login if "@" in login else "")  # a login is often the address
+    if not name:
+        raise RosterError(where, "a name", f"only {(email or next(filter(None, cells)))[:60]!r}")
+    if email and "@" not in email:
         hint = "Does the name hold a comma? Put it in quotes."
-        raise RosterError(where, "an e-mail address", repr(cells["email"][:60]), hint)
+        raise RosterError(where, "an e-mail address", repr(email[:60]), hint)
+    ids = {kind: said[kind] for kind in ("sis_id", "login", "canvas_id") if said.get(kind)}
+    participant = _PARTICIPANT.fullmatch(said.get("participant", ""))
+    if participant:
+        ids["moodle_participant"] = participant[1]
+    return Enrolled(" ".join(name.split()), email, ids)
+
+
+def _cell(where: str, cells: Sequence[str], at: int) -> str:
+    text = cells[at] if at < len(cells) else ""
+    if len(text) > _LONGEST_CELL or any(unicodedata.category(c) == "Cc" for c in text):
+        raise RosterError(where, f"a line of at most {_LONGEST_CELL} characters in a cell", repr(text[:40]))
+    return text
 
 
 def _distinct(name: str, students: list[Enrolled]) -> tuple[Enrolled, ...]:
-    seen: set[str] = set()
+    """Refuse a person who stands there twice; two people of one name are told apart by anything else."""
+    seen: set[tuple[str, str]] = set()
     for student in students:
-        who = (student.email or student.name).casefold()
-        if who in seen:
-            raise RosterError(name, "each student once", f"{student.email or student.name!r} twice")
-        seen.add(who)
+        known = student.strong or {"name": student.name}
+        for kind, value in known.items():
+            who = (kind, folded(value))
+            if who in seen:
+                raise RosterError(name, "each student once", f"{value!r} twice")
+            seen.add(who)
     return tuple(students)

@@ -21,7 +21,14 @@ def _text(name: str, *, unique: bool = False) -> Column[str]:
     return Column(name, Text, nullable=False, unique=unique)
 
 
-student = Table("student", metadata, _id(), Column("pid", String(40), unique=True, nullable=False), _text("created_at"))
+student = Table(
+    "student",
+    metadata,
+    _id(),
+    Column("pid", String(40), unique=True, nullable=False),
+    _text("created_at"),
+    Column("status", String(20), nullable=False, server_default="active"),  # or dropped
+)
 """A person by random pseudonym: what every file and every other table carries."""
 
 student_identity = Table(
@@ -29,7 +36,7 @@ student_identity = Table(
     metadata,
     _id(),
     _to("student"),
-    Column("kind", String(20), nullable=False),  # name, email
+    Column("kind", String(20), nullable=False),  # name, email, sis_id, login, canvas_id, moodle_participant
     _text("value"),
     UniqueConstraint("student_id", "kind"),
 )
@@ -47,6 +54,8 @@ variant = Table(
     _to("student"),
     Column("code", String(80), unique=True, nullable=False),
     _text("issued_at"),
+    Column("variant_json", Text),  # every drawn number with its generator's version: frozen, never drawn again
+    Column("video_sha256", String(64)),
 )
 
 answer_key = Table(
@@ -74,6 +83,24 @@ submission = Table(
     UniqueConstraint("variant_id", "content_sha256"),  # the same content again is the same attempt
 )
 
+receipt = Table(
+    "receipt",
+    metadata,
+    _id(),
+    _text("received_at"),  # when it was handed in, as far as the platform says; else when it was collected
+    _text("collected_at"),
+    Column("file_sha256", String(64), nullable=False, index=True),
+    _text("original_name"),
+    Column("source", String(20), nullable=False),  # files, canvas, moodle, blackboard, gradescope
+    Column("lms_ref", Text),  # the number by which the platform knows whose it is
+    _to("student", nullable=True),  # whom the platform names
+    _to("submission", nullable=True),  # what it turned out to be
+    Column("assignment", String(80), nullable=False, server_default=""),
+    Column("status", String(20), nullable=False),  # collected, graded, unreadable, unmatched, closed
+    Column("reason", Text, nullable=False, server_default=""),
+)
+"""Every file that ever came in, also those that nobody could read."""
+
 grade_run = Table(
     "grade_run",
     metadata,
@@ -86,6 +113,7 @@ grade_run = Table(
     Column("out_of", Float, nullable=False),
     Column("status", String(20), nullable=False),
     _text("result_json"),  # diagnosis and reasons
+    Column("ms", Integer),  # that the grading took
 )
 
 criterion_score = Table(
@@ -115,6 +143,38 @@ adjustment = Table(
     _text("at"),
 )
 """What a person decided about an attempt; only ever added to, the newest counts."""
+
+release = Table("release", metadata, _id(), _to("assignment"), _text("at"), _text("who"), _text("snapshot_sha256"))
+"""What was told to students and platform at one moment; exports are made from it."""
+
+released_grade = Table(
+    "released_grade",
+    metadata,
+    Column("release_id", Integer, ForeignKey("release.id"), primary_key=True),
+    Column("student_id", Integer, ForeignKey("student.id"), primary_key=True),
+    Column("grade_run_id", Integer, ForeignKey("grade_run.id")),
+    Column("earned", Float, nullable=False),
+    Column("late_share", Float, nullable=False),
+    Column("points", Float, nullable=False),
+    Column("out_of", Float, nullable=False),
+    Column("attempt", Integer, nullable=False),
+)
+
+integrity_finding = Table(
+    "integrity_finding",
+    metadata,
+    _id(),
+    _to("assignment"),
+    Column("student_a_id", Integer, ForeignKey("student.id"), nullable=False),
+    Column("student_b_id", Integer, ForeignKey("student.id")),
+    Column("method", String(40), nullable=False),
+    Column("statistic", Float, nullable=False),
+    Column("false_positive_rate", Float, nullable=False),
+    _text("evidence"),
+    _text("found_at"),
+    UniqueConstraint("assignment_id", "student_a_id", "student_b_id", "method", "evidence"),
+)
+"""What a person may want to look at; never a penalty."""
 
 event = Table(
     "event",

@@ -1,0 +1,1 @@
+"""Versions of the gradebook's schema, newest last; `grader.database` runs them."""
