@@ -11,7 +11,7 @@ import json
 import os
 import re
 import tomllib
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from pydantic import ValidationError
@@ -20,7 +20,7 @@ from assignments.course_file import CourseFile
 from assignments.errors import CourseError
 from assignments.load import named_mistakes
 from assignments.secret import SECRET_FILE, read_secret, write_secret
-from assignments.terms import Calendar
+from assignments.terms import Calendar, Extension
 from vml_course.errors import FileMissingError
 from vml_course.io.shelf import FolderShelf, Shelf, open_shelf
 
@@ -155,6 +155,29 @@ def open_course(place: str | Path) -> Course:
     )
 
 
+def add_extension(course: Course, given: Extension) -> Course:
+    """Write an extension into the course's settings and return the course with it.
+
+    Raises
+    ------
+    CourseError
+        When the settings would not be valid with it; they then stay as they were.
+    """
+    fields = {
+        "student": given.student,
+        "assignment": given.assignment,
+        "hours": given.hours,
+        "attempts": given.attempts,
+        "reason": given.reason,
+    }
+    lines = (f"{name} = {json.dumps(value, ensure_ascii=False)}" for name, value in fields.items() if value)
+    old = course.shelf.read(COURSE_FILE).decode("utf-8")
+    text = old.rstrip("\n") + "\n\n[[extension]]\n" + "\n".join(lines) + "\n"
+    settings = _understood(text, course.shelf.place(COURSE_FILE))
+    course.shelf.write(COURSE_FILE, text.encode())
+    return replace(course, calendar=settings.calendar())
+
+
 def home_of(place: str | Path) -> Path:
     """Return the folder of this machine that holds the private part of a course."""
     shelf = open_shelf(place)
@@ -171,14 +194,21 @@ def _is_folder(shelf: Shelf) -> bool:
 
 
 def _settings(shelf: Shelf, place: str | Path) -> CourseFile:
-    path = shelf.place(COURSE_FILE)
     try:
-        content = tomllib.loads(shelf.read(COURSE_FILE).decode("utf-8"))
-        return CourseFile.model_validate(content)
+        text = shelf.read(COURSE_FILE).decode("utf-8")
     except FileMissingError:
         hint = f"Make one with: vml course new {place}"
         raise CourseError(str(place), f"a course folder with {COURSE_FILE}", "none", hint) from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+    except UnicodeDecodeError as error:
+        raise CourseError(shelf.place(COURSE_FILE), "TOML in UTF-8", error) from error
+    return _understood(text, shelf.place(COURSE_FILE))
+
+
+def _understood(text: str, path: str) -> CourseFile:
+    try:
+        content = tomllib.loads(text)
+        return CourseFile.model_validate(content)
+    except tomllib.TOMLDecodeError as error:
         raise CourseError(path, "TOML in UTF-8", error) from error
     except ValidationError as error:
         first = named_mistakes(error, content)[0]

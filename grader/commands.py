@@ -2,24 +2,21 @@
 
 from __future__ import annotations
 
-import getpass
-import json
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import asdict
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from grader import gradebook_commands, roster_commands
+from grader._options import CourseOption, JsonOption, print_json
 from vml_course.commands._progress import progress, stages
 
 if TYPE_CHECKING:
     from grader.form import Checked
     from grader.usecases import Graded
-
-CourseOption = Annotated[Path, typer.Option("--course", metavar="DIR", help="The course folder.")]
-JsonOption = Annotated[bool, typer.Option("--json", help="Print the result as JSON.")]
 
 
 def register(app: typer.Typer) -> None:
@@ -28,17 +25,8 @@ def register(app: typer.Typer) -> None:
     app.command("handout")(handout)
     app.command("grade")(grade)
     app.command("check")(check)
-    book = typer.Typer(
-        help="Look into the gradebook of a course, and settle what needs a person.", no_args_is_help=True
-    )
-    book.callback()(_group)
-    book.command("show")(show)
-    book.command("set")(set_)
-    app.add_typer(book, name="gradebook")
-
-
-def _group() -> None:
-    """Look into the gradebook of a course, and settle what needs a person."""
+    roster_commands.register(app)
+    gradebook_commands.register(app)
 
 
 def demo(
@@ -56,8 +44,8 @@ def demo(
     with stages() as say:
         result = run_demo(out, students, workers, say)
     if as_json:
-        graded = [{**asdict(g), "file": str(g.file), "feedback": str(g.feedback)} for g in result.graded]
-        _print_json({"course": str(result.course), "stories": dict(result.stories), "graded": graded})
+        graded = [{**asdict(g), "file": str(g.file), "feedback": g.feedback} for g in result.graded]
+        print_json({"course": str(result.course), "stories": dict(result.stories), "graded": graded})
         return
     typer.echo(f"A sample course of {students} is in {result.course}. What the students did, and what the grader says:")
     for item in result.graded:
@@ -88,7 +76,7 @@ def handout(
     with _resumable(), progress("handing out") as show:
         handed, students = hand_out_to(open_course(course), assignment, student or (), workers=workers, progress=show)
     if as_json:
-        _print_json([{**asdict(item), "folder": str(item.folder)} for item in handed])
+        print_json([{**asdict(item), "folder": str(item.folder)} for item in handed])
     else:
         for item in handed:
             name = students[item.student].name
@@ -126,7 +114,7 @@ def grade(
     with _resumable(), progress("grading") as show:
         graded = grade_files(opened, files, show_truth=show_truth, progress=show)
     if as_json:
-        _print_json([{**asdict(g), "file": str(g.file), "feedback": g.feedback and str(g.feedback)} for g in graded])
+        print_json([{**asdict(g), "file": str(g.file), "feedback": g.feedback or None} for g in graded])
     else:
         _print_graded(graded, opened.folder)
     if any(item.needs_attention for item in graded):
@@ -161,7 +149,7 @@ def check(
 
     result = check_workbook(workbook)
     if as_json:
-        _print_json({**asdict(result), "is_complete": result.is_complete})
+        print_json({**asdict(result), "is_complete": result.is_complete})
     else:
         for answer in result.answers:
             typer.echo(f"{_mark(answer)} {answer.label}: {answer.says}")
@@ -176,62 +164,6 @@ def _mark(answer: Checked) -> str:
     return {"read": "✓", "no unit": "?", "unclear": "?"}.get(answer.status, "✗")
 
 
-def show(course: CourseOption, as_json: JsonOption = False) -> None:
-    """Show the effective grades of a course.
-
-    Example: vml gradebook show --course dynamics-2026
-    """
-    from assignments.course import open_course
-    from grader.feedback import points_text
-    from grader.gradebook import Gradebook
-
-    with Gradebook.open(open_course(course)) as book:
-        rows, students = book.rows(), book.students()
-    if as_json:
-        _print_json([asdict(row) for row in rows])
-        return
-    for row in rows:
-        who = f"{row.student.pid}  {row.student.name:24}{row.assignment_id:16}"
-        earned = points_text(row.points, is_provisional=row.is_provisional)
-        typer.echo(f"{who}{earned} / {points_text(row.out_of)}  attempt {row.attempt}  {row.status}")
-        for text in row.adjustments:
-            typer.echo(f"{'':10}{text}")
-    graded = {row.student.pid for row in rows}
-    for student in students:
-        if student.pid not in graded:
-            typer.echo(f"{student.pid}  {student.name:24}{'nothing graded yet'}")
-
-
-def set_(
-    pid: Annotated[str, typer.Argument(metavar="PID", help="The student's pseudonym.")],
-    assignment: Annotated[str, typer.Argument(metavar="ASSIGNMENT", help="Name of the assignment.")],
-    question: Annotated[str, typer.Argument(metavar="QUESTION", help="Question, such as e; `total` for the whole.")],
-    points: Annotated[float, typer.Argument(metavar="POINTS", help="Points that it is worth.")],
-    reason: Annotated[str, typer.Option(help="Why; the student reads it.")],
-    course: CourseOption,
-    as_json: JsonOption = False,
-) -> None:
-    """Settle a review: set the points of a question of the attempt that counts. Nothing is overwritten.
-
-    Example: vml gradebook set k3m9x2ab soccer-kick e 6 --reason "0.57 was meant" --course dynamics-2026
-    """
-    from assignments.course import open_course
-    from grader.adjust import Adjustment
-    from grader.events import now
-    from grader.feedback import points_text
-    from grader.usecases import set_points
-
-    adjustment = Adjustment(question, points, reason, getpass.getuser(), now())
-    row = set_points(open_course(course), assignment, pid, adjustment)
-    if as_json:
-        _print_json(asdict(row))
-        return
-    typer.echo(f"{pid}: {adjustment}")
-    earned = points_text(row.points, is_provisional=row.is_provisional)
-    typer.echo(f"{earned} / {points_text(row.out_of)}  {row.status}  {' '.join(row.reasons)}".rstrip())
-    typer.echo("The class page is written anew; the student's page shows it when their file is graded again.")
-
-
 # ---------------------------------------------------------------- shared
 
 
@@ -243,7 +175,3 @@ def _resumable() -> Iterator[None]:
     except KeyboardInterrupt:
         typer.echo("vml: stopped; run the same command again to continue.", err=True)
         raise typer.Exit(130) from None
-
-
-def _print_json(result: Any) -> None:
-    typer.echo(json.dumps(result, ensure_ascii=False, indent=1))

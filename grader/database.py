@@ -9,6 +9,8 @@ from __future__ import annotations
 import datetime as dt
 import logging
 import os
+import sqlite3
+from contextlib import closing
 from pathlib import Path
 from typing import Any
 
@@ -130,7 +132,7 @@ def _bring_up_to_date(engine: Engine, address: URL) -> None:
         hint = "Use the vml-course that wrote it, or a newer one."
         raise DatabaseError(_shown(address), f"a gradebook of version {SCHEMA} or older", version, hint)
     if version:
-        _back_up(engine, address, version)
+        _back_up(address, version)
     with engine.begin() as connection:  # the write lock: of two that open it first, one migrates and one waits
         at = _version_in(connection)
         config = _config(connection)
@@ -160,7 +162,7 @@ def _config(connection: Connection) -> Config:
     return config
 
 
-def _back_up(engine: Engine, address: URL, version: str) -> None:
+def _back_up(address: URL, version: str) -> None:
     """Copy a file before its schema changes; a server's database is its keeper's to copy."""
     if address.get_backend_name() != "sqlite" or not address.database:
         return
@@ -168,8 +170,8 @@ def _back_up(engine: Engine, address: URL, version: str) -> None:
     stamp = dt.datetime.now(dt.UTC).strftime("%Y%m%dT%H%M%S%f")
     copy = path.with_name(f"{path.stem}-before-{SCHEMA}-from-{version}-{stamp}.db")
     _keep_private(copy)
-    with engine.execution_options(isolation_level="AUTOCOMMIT").connect() as connection:
-        connection.exec_driver_sql("VACUUM INTO ?", (str(copy),))
+    with closing(sqlite3.connect(path)) as source, closing(sqlite3.connect(copy)) as target:
+        source.backup(target)
 
 
 def _shown(address: URL) -> str:

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any, Self
 
-from sqlalchemy import Engine, insert, select
+from sqlalchemy import Engine, func, insert, select
 
 from assignments import key as keys
 from assignments.course import Course
@@ -72,8 +72,10 @@ class Gradebook:
 
     # ------------------------------------------------------------ students
 
-    def take_in(self, people: Sequence[Enrolled], source: str = "roster") -> tuple[Arrival, ...]:
-        """Take a class list in; who is new gets a random pseudonym.
+    def take_in(
+        self, people: Sequence[Enrolled], source: str = "roster", *, dry_run: bool = False
+    ) -> tuple[Arrival, ...]:
+        """Take a class list in; who is new gets a random pseudonym. With `dry_run` all is undone again.
 
         Returns
         -------
@@ -84,8 +86,11 @@ class Gradebook:
         ------
         RosterError
         """
-        with self._engine.begin() as connection:
-            return enrol_all(connection, people, source)
+        with self._engine.connect() as connection, connection.begin() as transaction:
+            arrivals = enrol_all(connection, people, source)
+            if dry_run:
+                transaction.rollback()
+        return arrivals
 
     def students_from_roster(self, path: Path) -> tuple[Student, ...]:
         """Take a class list in from its file, and return its students in order.
@@ -103,6 +108,18 @@ class Gradebook:
             found = students_of(connection).values()
         return tuple(student for student in found if student.status == ACTIVE or not active_only)
 
+    def student(self, pid: str) -> Student:
+        """Return a student by pseudonym.
+
+        Raises
+        ------
+        InputError
+        """
+        found = next((student for student in self.students() if student.pid == pid), None)
+        if found is None:
+            raise InputError("student", "a pseudonym of this course", repr(pid), "See: vml roster list.")
+        return found
+
     def set_status(self, pid: str, status: str) -> None:
         """Mark a student as active or dropped; grades stay.
 
@@ -110,8 +127,7 @@ class Gradebook:
         ------
         InputError
         """
-        if pid not in {student.pid for student in self.students()}:
-            raise InputError("student", "a pseudonym of this course", repr(pid), "See: vml roster list.")
+        self.student(pid)
         with self._engine.begin() as connection:
             set_status(connection, pid, status)
 
@@ -219,6 +235,24 @@ class Gradebook:
         """Return the effective grades of each student and assignment, by the terms of the course."""
         with self._reader.connect() as connection:
             return effective_rows(connection, self._calendar, assignment_id)
+
+    # ------------------------------------------------------------ what happened
+
+    def note(self, kind: str, subject: str, data: Mapping[str, Any]) -> None:
+        """Add an event to the chain."""
+        with self._engine.begin() as connection:
+            note(connection, kind, subject, data)
+
+    def event_count(self) -> int:
+        """Return the length of the chain of events."""
+        with self._reader.connect() as connection:
+            return int(connection.scalar(select(func.count()).select_from(tables.event)) or 0)
+
+    def file_hashes(self) -> tuple[str, ...]:
+        """Return the SHA-256 of every file that came in."""
+        from_submissions = select(tables.submission.c.file_sha256)
+        with self._reader.connect() as connection:
+            return tuple(sorted(connection.scalars(from_submissions.union(select(tables.receipt.c.file_sha256)))))
 
     def is_whole(self) -> bool:
         """Tell whether the chain of events is unbroken."""

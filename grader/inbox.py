@@ -6,13 +6,13 @@ import hashlib
 from pathlib import Path
 
 from vml_course.errors import FileMissingError
-from vml_course.io.files import replacing
+from vml_course.io.shelf import Shelf
 
 FOLDER = "inbox"
 LARGEST_BYTES = 50 * 2**20  # of a file that is kept; the reader's own limit is lower
 
 
-def receive(course_folder: Path, file: Path) -> bytes:
+def receive(shelf: Shelf, file: Path) -> bytes:
     """Keep a copy of a file in the course's inbox and return its bytes.
 
     Raises
@@ -21,14 +21,21 @@ def receive(course_folder: Path, file: Path) -> bytes:
         When there is no such file, it cannot be read, or is far too large to be a workbook.
     """
     data = _bytes(file)
-    sha = hashlib.sha256(data).hexdigest()
-    kept = course_folder / FOLDER / sha[:2] / sha
-    if not kept.exists():
-        kept.parent.mkdir(parents=True, exist_ok=True)
-        with replacing(kept) as temporary:
-            temporary.write_bytes(data)
-            temporary.chmod(0o444)
+    keep(shelf, data)
     return data
+
+
+def keep(shelf: Shelf, data: bytes) -> str:
+    """Keep bytes that came in, once; return their SHA-256."""
+    sha256 = hashlib.sha256(data).hexdigest()
+    if not shelf.exists(kept_name(sha256)):
+        shelf.write(kept_name(sha256), data, read_only=True)
+    return sha256
+
+
+def kept_name(sha256: str) -> str:
+    """Return where the bytes with this hash lie."""
+    return f"{FOLDER}/{sha256[:2]}/{sha256}"
 
 
 def _bytes(file: Path) -> bytes:

@@ -6,12 +6,13 @@ import hashlib
 import hmac
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
-from assignments.course import Course
+from assignments.course import Course, add_extension
 from assignments.load import load_assignment
 from assignments.model import AnswerKey, Assignment
+from assignments.terms import Extension
 from assignments.usecases import HandedOut, hand_out
 from assignments.variants import signature_of
 from grader.adjust import Adjustment
@@ -26,7 +27,6 @@ from grader.read import ReadRequest, claims_of, find_submission, read_workbook
 from grader.read.locate import Claims
 from grader.template import template_cells
 from vml_course.errors import FileMissingError, InputError, VmlError
-from vml_course.io.files import replacing
 
 FEEDBACK = "feedback"
 Progress = Callable[[int, int], None]
@@ -56,7 +56,7 @@ class Graded:
     points: float = 0.0
     out_of: float = 0.0
     is_provisional: bool = False
-    feedback: Path | None = None
+    feedback: str = ""
 
     @property
     def needs_attention(self) -> bool:
@@ -109,12 +109,12 @@ def grade_files(
 
 def write_class_page(
     course: Course, gradebook: Gradebook, assignment: Assignment, unreadable: Sequence[tuple[str, str]] = ()
-) -> Path:
+) -> str:
     """Write the instructor's page of an assignment from the gradebook; return where it is."""
-    path = course.folder / FEEDBACK / assignment.id / "class.html"
+    name = f"{FEEDBACK}/{assignment.id}/class.html"
     rows, students = gradebook.rows(assignment.id), gradebook.students()
-    _write(path, class_page(assignment, rows, unreadable, students))
-    return path
+    course.shelf.write(name, class_page(assignment, rows, unreadable, students).encode())
+    return course.shelf.place(name)
 
 
 def _changed(file: Path) -> float:
@@ -155,7 +155,7 @@ def listed_files(files: Iterable[Path]) -> list[Path]:
 
 def _grade_one(course: Course, gradebook: Gradebook, file: Path, *, show_truth: bool) -> Graded:
     try:
-        data = receive(course.folder, file)
+        data = receive(course.shelf, file)
     except VmlError as error:
         return Graded(file, "unreadable", str(error))
     try:
@@ -166,10 +166,11 @@ def _grade_one(course: Course, gradebook: Gradebook, file: Path, *, show_truth: 
     submission = settle_readings(submission, {q.id: q for q in assignment.questions}, key.values)
     result = grade(submission, key, assignment)
     attempt = gradebook.record_run(submission, result)
-    page = course.folder / FEEDBACK / assignment.id / f"{key.student}.html"
+    page = f"{FEEDBACK}/{assignment.id}/{key.student}.html"
     row = gradebook.row(assignment.id, key.student)
     if row.attempt == attempt:  # an old file that is graded again must not take the place of a newer one's page
-        _write(page, feedback_page(Report(assignment, submission, key, result, attempt, show_truth, row.adjustments)))
+        report = Report(assignment, submission, key, result, attempt, show_truth, row.adjustments)
+        course.shelf.write(page, feedback_page(report).encode())
     return Graded(
         file=file,
         status=result.status,
@@ -180,7 +181,7 @@ def _grade_one(course: Course, gradebook: Gradebook, file: Path, *, show_truth: 
         points=result.points,
         out_of=result.out_of,
         is_provisional=result.is_provisional,
-        feedback=page,
+        feedback=course.shelf.place(page),
     )
 
 
@@ -200,12 +201,6 @@ def _is_signed(course: Course, key: AnswerKey, claims: Claims) -> bool:
     return hmac.compare_digest(expected.encode(), claims.signature.encode())
 
 
-def _write(path: Path, text: str) -> None:
-    path.parent.mkdir(parents=True, exist_ok=True)
-    with replacing(path) as temporary:
-        temporary.write_text(text, encoding="utf-8", newline="\n")
-
-
 def set_points(course: Course, assignment_id: str, pid: str, adjustment: Adjustment) -> Row:
     """Record what a person decided, and write the class page anew; return the grade that follows.
 
@@ -218,6 +213,26 @@ def set_points(course: Course, assignment_id: str, pid: str, adjustment: Adjustm
         row = gradebook.adjust(assignment, pid, adjustment)
         write_class_page(course, gradebook, assignment)
     return row
+
+
+def extend_student(course: Course, given: Extension) -> list[str]:
+    """Give a student more time or attempts, in the course's settings and as an event; return what holds now, in words.
+
+    Raises
+    ------
+    InputError, CourseError
+    """
+    with Gradebook.open(course) as gradebook:
+        gradebook.student(given.student)
+        extended = add_extension(course, given)
+        gradebook.note("extended", given.student, asdict(given))
+    calendar = extended.calendar
+    named = [given.assignment] if given.assignment else sorted(calendar.terms or {})
+    return [
+        f"{given.student}  {name}: due {calendar.due_text(name, given.student) or 'at no date'}, "
+        f"{calendar.terms_of(name, given.student).attempts or 'any number of'} attempts"
+        for name in named
+    ] or [f"{given.student}: extended; no assignment has a date yet."]
 
 
 # ---------------------------------------------------------------- hand out

@@ -33,6 +33,18 @@ need_venv() {
     fi
 }
 
+# The tests run the gradebook on a real server of their own; Debian keeps its programs off the PATH.
+need_postgres() {
+    if command -v pg_ctl >/dev/null || ls /usr/lib/postgresql/*/bin/pg_ctl >/dev/null 2>&1; then return; fi
+    if [ "$(id -u)" = 0 ] && command -v apt-get >/dev/null; then
+        say "Installing the system package postgresql ..."
+        apt-get update -qq && DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends postgresql >/dev/null
+    else
+        say "PostgreSQL: expected pg_ctl for the tests of the gradebook, got none. Install it (Debian, Ubuntu: sudo apt-get install postgresql)."
+        exit 2
+    fi
+}
+
 if [ ! -x .venv/bin/python ] || ! suits .venv/bin/python; then
     python="$(find_python)"
     need_venv "$python"
@@ -43,7 +55,7 @@ fi
 
 case "$kind" in
     runtime) target="." ;;
-    dev) target=".[dev]" ;;
+    dev) target=".[dev]"; need_postgres ;;
     *) say "tools/setup.sh: expected runtime or dev, got '$kind'"; exit 2 ;;
 esac
 say "Installing vml-course ($kind); the first time takes a minute or two ..."

@@ -91,7 +91,7 @@ def test_a_title_is_one_line(tmp_path: Path, title: str) -> None:
     [
         ("course.toml", None, "expected a course folder with course.toml, got none. Make one with: vml course new"),
         ("course.toml", "title = ", "expected TOML in UTF-8"),
-        ("course.toml", "title = 3\n", "expected a title, got 3"),
+        ("course.toml", "title = 3\n", "title: expected a valid string, got 3"),
         (".secret", None, "expected the course's secret, got No such file"),
         (".secret", "abc\n", "expected 64 hexadecimal digits, got 3 other characters"),
     ],

@@ -141,7 +141,7 @@ def test_an_old_file_graded_again_stays_old(room):
     with Gradebook.open(room.course) as book:
         (row,) = book.rows()
     assert (again.attempt, row.attempt, row.points, row.attempts) == (1, 2, TOTAL, 2)
-    assert "attempt 2" in again.feedback.read_text(encoding="utf-8")
+    assert "attempt 2" in Path(again.feedback).read_text(encoding="utf-8")
 
 
 def test_files_of_one_student_are_taken_in_the_order_of_their_change(room):
@@ -273,7 +273,7 @@ def test_a_batch_is_graded_recorded_and_explained(room):
     ]
     assert told == [(1, 3), (2, 3), (3, 3)]
     assert "PDF" in graded[2].message
-    page = graded[1].feedback.read_text(encoding="utf-8")
+    page = Path(graded[1].feedback).read_text(encoding="utf-8")
     assert "<b>e</b>: Your e looks turned over" in page
     assert "Ben" not in page
     overview = (room.course.folder / "feedback" / "soccer-kick" / "class.html").read_text(encoding="utf-8")
@@ -310,7 +310,7 @@ def test_another_courses_workbook_is_not_graded(room, tmp_path):
 
 def test_a_hidden_truth_stays_hidden(room):
     (item,) = grade_files(room.course, [room.workbook(0, v_b2=1.0, px_per_m=7.0)], show_truth=False)
-    page = item.feedback.read_text(encoding="utf-8")
+    page = Path(item.feedback).read_text(encoding="utf-8")
     assert "True value" not in page
     assert "<svg" not in page
     assert f"{room.numbers(0).u2:.4g}" not in page

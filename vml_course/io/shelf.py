@@ -28,8 +28,8 @@ class Shelf(Protocol):
         """Return a file's bytes; FileMissingError when there is none."""
         ...
 
-    def write(self, name: str, data: bytes) -> None:
-        """Write a file, whole or not at all."""
+    def write(self, name: str, data: bytes, *, read_only: bool = False) -> None:
+        """Write a file, whole or not at all; `read_only` where the place knows such a thing."""
         ...
 
     def exists(self, name: str) -> bool:
@@ -84,12 +84,14 @@ class FolderShelf:
         except OSError as error:
             raise FileMissingError(str(path), "a file that can be read", error.strerror or "none") from error
 
-    def write(self, name: str, data: bytes) -> None:
+    def write(self, name: str, data: bytes, *, read_only: bool = False) -> None:
         """Write a file, whole or not at all."""
         path = self._path(name)
         path.parent.mkdir(parents=True, exist_ok=True)
         with replacing(path) as temporary:
             temporary.write_bytes(data)
+            if read_only:
+                temporary.chmod(0o444)
 
     def exists(self, name: str) -> bool:
         """Tell whether there is such a file."""
@@ -135,7 +137,7 @@ class StoreShelf:
         except (OSError, KeyError) as error:
             raise FileMissingError(self.place(name), "a file that can be read", _reason(error)) from error
 
-    def write(self, name: str, data: bytes) -> None:
+    def write(self, name: str, data: bytes, *, read_only: bool = False) -> None:  # noqa: ARG002 - its keeper's rules
         """Write an object; stores show it when it was sent to its end."""
         self._send(self._path(name), data)
 

@@ -1,0 +1,18 @@
+"""Options and printing that the commands of this package share."""
+
+from __future__ import annotations
+
+import json
+from typing import Annotated, Any
+
+import typer
+
+CourseOption = Annotated[
+    str, typer.Option("--course", metavar="DIR", help="The course: a folder, or the URL of one in an object store.")
+]
+JsonOption = Annotated[bool, typer.Option("--json", help="Print the result as JSON.")]
+
+
+def print_json(result: Any) -> None:
+    """Print a result for other programs."""
+    typer.echo(json.dumps(result, ensure_ascii=False, indent=1, default=str))

@@ -1,0 +1,102 @@
+"""Due dates, lateness, extensions: the arithmetic that decides about points."""
+
+from __future__ import annotations
+
+import datetime as dt
+from zoneinfo import ZoneInfo
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from assignments.terms import Calendar, Extension, Late, Terms
+
+HOUR = 3600.0
+DUE = dt.datetime(2026, 5, 1, 22, 0, tzinfo=dt.UTC)
+
+lates = st.builds(
+    Late,
+    rule=st.sampled_from(["none", "fixed", "linear", "steps"]),
+    share=st.floats(0, 1),
+    per_hours=st.floats(0.1, 200),
+    steps=st.lists(st.tuples(st.floats(0, 500), st.floats(0, 1)), max_size=4).map(lambda s: tuple(sorted(s))),
+    grace_minutes=st.floats(0, 600),
+    cap=st.floats(0, 1),
+)
+
+
+@given(lates, st.floats(-1e6, 1e8))
+def test_no_rule_takes_off_less_than_nothing_or_more_than_its_cap(late: Late, late_s: float) -> None:
+    assert 0.0 <= late.share_off(late_s) <= late.cap
+
+
+@given(lates, st.floats(-1e6, 0))
+def test_what_is_in_time_loses_nothing(late: Late, late_s: float) -> None:
+    assert late.share_off(late_s) == 0.0
+
+
+@given(lates.filter(lambda late: late.rule != "steps"), st.floats(0, 1e7), st.floats(0, 1e7))
+def test_later_never_costs_less(late: Late, one: float, other: float) -> None:
+    assert late.share_off(min(one, other)) <= late.share_off(max(one, other))
+
+
+@pytest.mark.parametrize(
+    ("late", "hours", "off"),
+    [
+        (Late("none"), 1000, 0.0),
+        (Late("fixed", share=0.2), 0.001, 0.2),
+        (Late("fixed", share=0.2), 1000, 0.2),
+        (Late("linear", share=0.1, per_hours=24), 0.001, 0.1),
+        (Late("linear", share=0.1, per_hours=24), 24, 0.1),
+        (Late("linear", share=0.1, per_hours=24), 24.001, 0.2),
+        (Late("linear", share=0.1, per_hours=24, cap=0.5), 24 * 90, 0.5),
+        (Late("steps", steps=((0, 0.1), (24, 0.3))), 0.001, 0.1),
+        (Late("steps", steps=((0, 0.1), (24, 0.3))), 24, 0.1),
+        (Late("steps", steps=((0, 0.1), (24, 0.3))), 24.001, 0.3),
+        (Late("steps", steps=((24, 0.3),)), 1, 0.0),
+        (Late("fixed", share=0.2, grace_minutes=15), 0.25, 0.0),
+        (Late("fixed", share=0.2, grace_minutes=15), 0.2501, 0.2),
+        (Late("linear", share=0.1, per_hours=1, grace_minutes=90), 2, 0.2),
+    ],
+)
+def test_each_rule_takes_off_what_it_says(late: Late, hours: float, off: float) -> None:
+    assert late.share_off(hours * HOUR) == pytest.approx(off)
+
+
+def test_terms_without_dates_are_never_late_closed_or_over() -> None:
+    now = dt.datetime(2100, 1, 1, tzinfo=dt.UTC)
+    assert (Terms().late_s(now), Terms().is_closed(now), Terms().is_over(now)) == (0.0, False, False)
+
+
+def test_lateness_counts_from_the_due_moment_in_any_zone() -> None:
+    terms = Terms(due=DUE, closes=DUE + dt.timedelta(hours=2))
+    berlin = (DUE + dt.timedelta(hours=1)).astimezone(ZoneInfo("Europe/Berlin"))
+    assert terms.late_s(berlin) == HOUR
+    assert terms.late_s(DUE - dt.timedelta(hours=1)) == 0.0
+    assert [terms.is_closed(DUE + dt.timedelta(hours=h)) for h in (2, 2.01)] == [False, True]
+    assert [terms.is_over(DUE), terms.is_over(DUE + dt.timedelta(seconds=1))] == [False, True]
+
+
+def test_extensions_add_up_for_their_student_and_assignment_only() -> None:
+    calendar = Calendar(
+        terms={"kick": Terms(due=DUE, closes=DUE, attempts=2), "bat": Terms(due=DUE)},
+        extensions=(
+            Extension("ann", "ill", "kick", hours=24),
+            Extension("ann", "ill again", hours=1, attempts=1),
+            Extension("ben", "moved", "kick", attempts=1),
+        ),
+    )
+    ann = calendar.terms_of("kick", "ann")
+    assert ann.due == ann.closes == DUE + dt.timedelta(hours=25)
+    assert ann.attempts == 3
+    assert calendar.terms_of("bat", "ann").due == DUE + dt.timedelta(hours=1)
+    assert calendar.terms_of("bat", "ann").attempts == 0  # as many as one likes stays so
+    assert calendar.terms_of("kick", "ben") == Terms(due=DUE, closes=DUE, attempts=3)
+    assert calendar.terms_of("kick") == Terms(due=DUE, closes=DUE, attempts=2)
+    assert calendar.terms_of("rod", "ann") == Terms()
+
+
+def test_a_due_date_reads_as_students_read_it_in_the_zone_of_the_course() -> None:
+    calendar = Calendar("America/New_York", {"kick": Terms(due=DUE), "bat": Terms()})
+    assert calendar.due_text("kick") == "Friday 1 May 2026, 18:00 (America/New_York)"
+    assert calendar.due_text("bat") == ""
