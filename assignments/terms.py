@@ -107,8 +107,12 @@ class Terms:
         return max((received - self.due).total_seconds(), 0.0) if self.due else 0.0
 
     def is_over(self, now: dt.datetime) -> bool:
-        """Tell whether nobody can hand in in time any more, so that answers may be shown."""
-        return self.due is not None and now > self.due
+        """Tell whether nothing can be handed in for points any more, so that answers may be shown.
+
+        Without a last moment the due date is taken for it.
+        """
+        last = self.closes or self.due
+        return last is not None and now > last
 
     def is_closed(self, received: dt.datetime) -> bool:
         """Tell whether something came in after the last moment."""
@@ -132,6 +136,11 @@ class Calendar:
     terms: Mapping[str, Terms] | None = None
     extensions: tuple[Extension, ...] = ()
 
+    @property
+    def zone(self) -> ZoneInfo:
+        """The zone of local times."""
+        return ZoneInfo(self.time_zone)
+
     def terms_of(self, assignment_id: str, student: str = "") -> Terms:
         """Return the terms of an assignment, with the extensions of one student."""
         usual = (self.terms or {}).get(assignment_id, Terms())
@@ -148,7 +157,7 @@ class Calendar:
         due = self.terms_of(assignment_id, student).due
         if due is None:
             return ""
-        local = due.astimezone(ZoneInfo(self.time_zone))
+        local = due.astimezone(self.zone)
         return f"{_DAYS[local.weekday()]} {local.day} {_MONTHS[local.month - 1]} {local:%Y, %H:%M} ({self.time_zone})"
 
 

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Annotated, Any
 
 import typer
@@ -16,3 +18,13 @@ JsonOption = Annotated[bool, typer.Option("--json", help="Print the result as JS
 def print_json(result: Any) -> None:
     """Print a result for other programs."""
     typer.echo(json.dumps(result, ensure_ascii=False, indent=1, default=str))
+
+
+@contextmanager
+def resumable() -> Iterator[None]:
+    """Say that nothing is lost when a long run is stopped by hand."""
+    try:
+        yield
+    except KeyboardInterrupt:
+        typer.echo("vml: stopped; run the same command again to continue.", err=True)
+        raise typer.Exit(130) from None

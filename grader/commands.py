@@ -2,30 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from grader import gradebook_commands, roster_commands
-from grader._options import CourseOption, JsonOption, print_json
+from grader import gradebook_commands, grading_commands, roster_commands
+from grader._options import CourseOption, JsonOption, print_json, resumable
 from vml_course.commands._progress import progress, stages
 
 if TYPE_CHECKING:
     from grader.form import Checked
-    from grader.usecases import Graded
 
 
 def register(app: typer.Typer) -> None:
     """Add this package's commands to `app`."""
     app.command("demo")(demo)
     app.command("handout")(handout)
-    app.command("grade")(grade)
     app.command("check")(check)
     roster_commands.register(app)
+    grading_commands.register(app)
     gradebook_commands.register(app)
 
 
@@ -73,7 +70,7 @@ def handout(
     from assignments.course import open_course
     from grader.usecases import hand_out_to
 
-    with _resumable(), progress("handing out") as show:
+    with resumable(), progress("handing out") as show:
         handed, students = hand_out_to(open_course(course), assignment, student or (), workers=workers, progress=show)
     if as_json:
         print_json([{**asdict(item), "folder": str(item.folder)} for item in handed])
@@ -84,55 +81,6 @@ def handout(
         typer.echo(f"{sum(item.status != 'failed' for item in handed)} of {len(handed)} handed out.")
     if any(item.status == "failed" for item in handed):
         raise typer.Exit(1)
-
-
-def grade(
-    files: Annotated[list[Path], typer.Argument(help="Workbooks, or folders of workbooks.")],
-    course: CourseOption,
-    show_truth: Annotated[
-        bool,
-        typer.Option(
-            "--show-truth/--hide-truth",
-            help="Show students the true values and curves. Only after the due date: before it, hide them (default).",
-        ),
-    ] = False,
-    as_json: JsonOption = False,
-) -> None:
-    """Grade workbooks, keep the grades, write a feedback page for each student and one for the class.
-
-    The newest attempt counts. An attempt is as old as the first arrival of its content: an old file graded again stays
-    old. Files of one student that come in together are taken in the order in which they were last changed.
-
-    Until the due date the pages hide true values and curves; hints and outcomes stay. After it, add --show-truth.
-
-    Example: vml grade returned/*.xlsx --course dynamics-2026
-    """
-    from assignments.course import open_course
-    from grader.usecases import grade_files
-
-    opened = open_course(course)
-    with _resumable(), progress("grading") as show:
-        graded = grade_files(opened, files, show_truth=show_truth, progress=show)
-    if as_json:
-        print_json([{**asdict(g), "file": str(g.file), "feedback": g.feedback or None} for g in graded])
-    else:
-        _print_graded(graded, opened.folder)
-    if any(item.needs_attention for item in graded):
-        raise typer.Exit(1)
-
-
-def _print_graded(graded: Iterable[Graded], folder: Path) -> None:
-    from grader.feedback import points_text
-
-    graded = list(graded)
-    for item in graded:
-        earned = points_text(item.points, is_provisional=item.is_provisional)
-        points = f"{earned} / {points_text(item.out_of)}" if item.status in {"ok", "review"} else "–"
-        said = item.message.removeprefix(f"{item.file.name}: ")
-        line = f"{item.pid or '–':10}{points:>14}  {item.status:11}{item.file.name}{'  ' if said else ''}{said}"
-        typer.echo(line)
-    for assignment_id in dict.fromkeys(item.assignment_id for item in graded if item.assignment_id):
-        typer.echo(f"Class page: {folder / 'feedback' / assignment_id / 'class.html'}")
 
 
 def check(
@@ -162,16 +110,3 @@ def check(
 
 def _mark(answer: Checked) -> str:
     return {"read": "✓", "no unit": "?", "unclear": "?"}.get(answer.status, "✗")
-
-
-# ---------------------------------------------------------------- shared
-
-
-@contextmanager
-def _resumable() -> Iterator[None]:
-    """Say that nothing is lost when a long run is stopped by hand."""
-    try:
-        yield
-    except KeyboardInterrupt:
-        typer.echo("vml: stopped; run the same command again to continue.", err=True)
-        raise typer.Exit(130) from None

@@ -18,7 +18,8 @@ from assignments.release import WORKBOOK
 from assignments.usecases import HandedOut
 from assignments.workbook import fill_workbook
 from grader.gradebook import Gradebook
-from grader.usecases import FEEDBACK, Graded, grade_files, hand_out_to
+from grader.grading import FEEDBACK, Graded, Wanted, grade_files
+from grader.usecases import hand_out_to
 from vml_course.errors import InputError
 from vml_course.kinetics.lines import solve_by_lines
 from vml_course.model.track import Seed
@@ -121,7 +122,7 @@ def run_demo(folder: Path, students: int, workers: int, say: Say) -> DemoResult:
         say(f"student {number + 1} {persona.story}", 0.5 + 0.45 * number / len(handed))
         returned.append(_hand_in(course, assignment, item, persona))
     say("grade", 0.97)
-    graded = grade_files(course, returned, show_truth=True)
+    graded = grade_files(course, returned, Wanted(show_truth=True))
     stories = {item.student: PERSONAS[number % len(PERSONAS)].story for number, item in enumerate(handed)}
     return DemoResult(course.folder, stories, tuple(graded))
 

@@ -22,3 +22,14 @@ class NoKeyError(InputError):
 
 class RosterError(InputError):
     """A roster is no table of names and e-mail addresses."""
+
+
+class CollectError(InputError):
+    """A download, or a file in it, is not what was meant."""
+
+
+class NothingGradedError(InputError):
+    """There is no grade to release or to export."""
+
+    def __init__(self, assignment: str) -> None:
+        super().__init__(assignment, "grades", "none", "Grade something first: vml grade.")

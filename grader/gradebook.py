@@ -8,12 +8,13 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any, Self
 
-from sqlalchemy import Engine, func, insert, select
+from sqlalchemy import Connection, Engine, func, insert, select
 
 from assignments import key as keys
 from assignments.course import Course
@@ -35,6 +36,7 @@ from grader.ledger import (
     variant_of,
 )
 from grader.model import Grade, Submission
+from grader.receipts import Arrived, Receipt, Status, add_receipt, knows_file, receipts_with, settle_receipt
 from grader.roster import Enrolled, read_roster
 from vml_course.errors import InputError
 
@@ -69,6 +71,18 @@ class Gradebook:
     def close(self) -> None:
         """Let go of the file."""
         self._engine.dispose()
+
+    @contextmanager
+    def reading(self) -> Iterator[Connection]:
+        """Give a connection that only reads."""
+        with self._reader.connect() as connection:
+            yield connection
+
+    @contextmanager
+    def writing(self) -> Iterator[Connection]:
+        """Give a connection in one transaction: all of the block is written, or nothing."""
+        with self._engine.begin() as connection:
+            yield connection
 
     # ------------------------------------------------------------ students
 
@@ -187,17 +201,44 @@ class Gradebook:
             text = connection.scalar(newest.order_by(tables.answer_key.c.id.desc()).limit(1))
         return keys.from_json(json.loads(text)) if text else None
 
+    # ------------------------------------------------------------ files that came in
+
+    def receive(self, arrived: Arrived) -> int:
+        """Keep a receipt of a file; the same bytes of the same name and student again are the same receipt."""
+        with self._engine.begin() as connection:
+            return add_receipt(connection, arrived)
+
+    def receipts(self, status: Status, assignment_id: str = "") -> tuple[Receipt, ...]:
+        """Return receipts in the order in which the files were handed in."""
+        with self._reader.connect() as connection:
+            return receipts_with(connection, status, assignment_id)
+
+    def knows_file(self, sha256: str, assignment_id: str) -> bool:
+        """Tell whether these bytes came in before."""
+        with self._reader.connect() as connection:
+            return knows_file(connection, sha256, assignment_id)
+
     # ------------------------------------------------------------ runs
 
-    def record_run(self, submission: Submission, grade: Grade, received_at: str = "") -> int:
-        """Record a grade, whole or not at all; return the attempt.
+    def record_run(
+        self,
+        submission: Submission,
+        grade: Grade,
+        received_at: str = "",
+        *,
+        receipt: int | None = None,
+        took_ms: int | None = None,
+    ) -> int:
+        """Record a grade and settle the receipt of its file, whole or not at all; return the attempt.
 
         The same content again is the same attempt; the run is added all the same. `received_at` is when it was
         handed in, in ISO 8601 with a zone; now when nobody knows.
         """
         with self._engine.begin() as connection:
             at, attempt = submission_of(connection, submission, received_at)
-            add_run(connection, at, submission.code, grade)
+            add_run(connection, at, submission.code, grade, took_ms)
+            if receipt is not None:
+                settle_receipt(connection, receipt, "graded", "", at)
             data = {"attempt": attempt, "points": grade.points, "file_sha256": submission.file_sha256}
             note(connection, "graded", submission.code, data)
         return attempt
@@ -226,9 +267,10 @@ class Gradebook:
         """Return the effective grade of one student, who was graded."""
         return next(row for row in self.rows(assignment_id) if row.student.pid == pid)
 
-    def note_unreadable(self, file_sha256: str, reason: str) -> None:
+    def note_unreadable(self, receipt: int, file_sha256: str, reason: str) -> None:
         """Record that a file came in that could not be graded."""
         with self._engine.begin() as connection:
+            settle_receipt(connection, receipt, "unreadable", reason)
             note(connection, "unreadable", file_sha256, {"reason": reason})
 
     def rows(self, assignment_id: str | None = None) -> tuple[Row, ...]:

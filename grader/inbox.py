@@ -12,19 +12,6 @@ FOLDER = "inbox"
 LARGEST_BYTES = 50 * 2**20  # of a file that is kept; the reader's own limit is lower
 
 
-def receive(shelf: Shelf, file: Path) -> bytes:
-    """Keep a copy of a file in the course's inbox and return its bytes.
-
-    Raises
-    ------
-    FileMissingError
-        When there is no such file, it cannot be read, or is far too large to be a workbook.
-    """
-    data = _bytes(file)
-    keep(shelf, data)
-    return data
-
-
 def keep(shelf: Shelf, data: bytes) -> str:
     """Keep bytes that came in, once; return their SHA-256."""
     sha256 = hashlib.sha256(data).hexdigest()
@@ -38,7 +25,14 @@ def kept_name(sha256: str) -> str:
     return f"{FOLDER}/{sha256[:2]}/{sha256}"
 
 
-def _bytes(file: Path) -> bytes:
+def received_bytes(file: Path) -> bytes:
+    """Return the bytes of a file that came in.
+
+    Raises
+    ------
+    FileMissingError
+        When there is no such file, it cannot be read, or is far too large to be a workbook.
+    """
     try:
         size = file.stat().st_size if file.is_file() else -1
         if size > LARGEST_BYTES:

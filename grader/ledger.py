@@ -125,7 +125,7 @@ def submission_of(connection: Connection, submission: Submission, received_at: s
     return _add(connection, table, line), newest + 1
 
 
-def add_run(connection: Connection, submission_id: int, code: str, grade: Grade) -> None:
+def add_run(connection: Connection, submission_id: int, code: str, grade: Grade, took_ms: int | None = None) -> None:
     """Add a run with all its scores."""
     key = select(func.max(tables.answer_key.c.id)).join(tables.variant).where(tables.variant.c.code == code)
     line = {
@@ -136,6 +136,7 @@ def add_run(connection: Connection, submission_id: int, code: str, grade: Grade)
         "points": grade.points,
         "out_of": grade.out_of,
         "status": grade.status,
+        "ms": took_ms,
         "result_json": json.dumps({"diagnosis": [asdict(d) for d in grade.diagnosis], "reasons": grade.reasons}),
     }
     run = _add(connection, tables.grade_run, line)

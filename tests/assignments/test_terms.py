@@ -74,7 +74,8 @@ def test_lateness_counts_from_the_due_moment_in_any_zone() -> None:
     assert terms.late_s(berlin) == HOUR
     assert terms.late_s(DUE - dt.timedelta(hours=1)) == 0.0
     assert [terms.is_closed(DUE + dt.timedelta(hours=h)) for h in (2, 2.01)] == [False, True]
-    assert [terms.is_over(DUE), terms.is_over(DUE + dt.timedelta(seconds=1))] == [False, True]
+    assert [terms.is_over(DUE + dt.timedelta(hours=h)) for h in (2, 2.01)] == [False, True]
+    assert [Terms(due=DUE).is_over(DUE + dt.timedelta(hours=h)) for h in (0, 0.01)] == [False, True]
 
 
 def test_extensions_add_up_for_their_student_and_assignment_only() -> None:

@@ -25,9 +25,10 @@ from grader.feedback import Report, class_page, feedback_page, verdict
 from grader.form import check_workbook
 from grader.grade import grade
 from grader.gradebook import Gradebook, Row, Student
+from grader.grading import Wanted, grade_files
 from grader.model import Finding, Outcome
 from grader.roster import read_roster
-from grader.usecases import grade_files, hand_out_to
+from grader.usecases import hand_out_to
 from vml_course.cli import run
 from vml_course.errors import FileMissingError, InputError
 
@@ -149,9 +150,9 @@ def test_files_of_one_student_are_taken_in_the_order_of_their_change(room):
     os.utime(oldest, (1e9, 1e9))
     graded = grade_files(room.course, [newest, oldest])
     assert [(item.file.name, item.attempt) for item in graded] == [("a.xlsx", 2), ("z.xlsx", 1)]
-    assert all("2 files of this student, the newest counts" in item.message for item in graded)
+    assert all("2 files of this student came together" in item.message for item in graded)
     page = (room.course.folder / "feedback" / "soccer-kick" / "class.html").read_text(encoding="utf-8")
-    assert "2 files of this student, the newest counts" in page
+    assert "2 attempts; number 2 counts" in page
     assert "Nothing handed in (2): Ben Example, Chi Example" in page
 
 
@@ -309,7 +310,7 @@ def test_another_courses_workbook_is_not_graded(room, tmp_path):
 
 
 def test_a_hidden_truth_stays_hidden(room):
-    (item,) = grade_files(room.course, [room.workbook(0, v_b2=1.0, px_per_m=7.0)], show_truth=False)
+    (item,) = grade_files(room.course, [room.workbook(0, v_b2=1.0, px_per_m=7.0)], Wanted(show_truth=False))
     page = Path(item.feedback).read_text(encoding="utf-8")
     assert "True value" not in page
     assert "<svg" not in page

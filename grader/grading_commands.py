@@ -1,0 +1,151 @@
+"""Commands that take in what students hand in, grade it, and say what it came to."""
+
+from __future__ import annotations
+
+import datetime as dt
+import getpass
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from grader._options import CourseOption, JsonOption, print_json, resumable
+from vml_course.commands._progress import progress
+
+if TYPE_CHECKING:
+    from grader.grading import Graded
+
+AssignmentArgument = Annotated[str, typer.Argument(metavar="ASSIGNMENT", help="Name, such as soccer-kick.")]
+ReceivedOption = Annotated[
+    dt.datetime | None,
+    typer.Option(help="When all of it was handed in, where nobody says; it counts as in time if not given."),
+]
+
+
+def register(app: typer.Typer) -> None:
+    """Add these commands to `app`."""
+    for name, command in (("collect", collect), ("grade", grade), ("release", release)):
+        app.command(name)(command)
+
+
+def collect(
+    assignment: AssignmentArgument,
+    download: Annotated[Path, typer.Argument(help="The zip as the platform gives it, or a folder.")],
+    course: CourseOption,
+    lms: Annotated[str, typer.Option(help="canvas, moodle, blackboard, gradescope, or auto.")] = "auto",
+    received: ReceivedOption = None,
+    dry_run: Annotated[bool, typer.Option("--dry-run", help="Say whose each file is, keep nothing.")] = False,
+    as_json: JsonOption = False,
+) -> None:
+    """Take in a platform's download of submissions: whose is each file. `vml grade` then grades what is new.
+
+    Example: vml collect soccer-kick submissions.zip --course dynamics-2026
+    """
+    from assignments.course import open_course
+    from assignments.load import load_assignment
+    from grader.collect import collect as take_in
+
+    load_assignment(assignment)
+    opened = open_course(course)
+    with resumable(), progress("collecting") as show:
+        found = take_in(opened, assignment, download, platform=lms, received=received, dry_run=dry_run, progress=show)
+    if as_json:
+        print_json([asdict(item) for item in found])
+    else:
+        for item in found:
+            typer.echo(f"{item.pid or '–':10}{item.status:12}{item.platform or '–':12}{item.name}")
+            if item.message:
+                typer.echo(f"{'':10}{item.message}")
+        counts = Counter(item.status for item in found)
+        typer.echo(", ".join(f"{number} {status}" for status, number in counts.items()) + ".")
+        typer.echo("Nothing was kept (--dry-run)." if dry_run else f"Next: vml grade --course {course}")
+    if any(item.status not in {"matched", "duplicate"} for item in found):
+        raise typer.Exit(1)
+
+
+def grade(
+    course: CourseOption,
+    files: Annotated[
+        list[Path] | None, typer.Argument(help="Workbooks, or folders of workbooks; without any, what was collected.")
+    ] = None,
+    assignment: Annotated[str, typer.Option(metavar="ID", help="Of what was collected, only this assignment's.")] = "",
+    show_truth: Annotated[
+        bool | None,
+        typer.Option(
+            "--show-truth/--hide-truth",
+            help="Show students the true values and curves. If not given: when nobody can hand in any more.",
+        ),
+    ] = None,
+    received: ReceivedOption = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Grade workbooks, keep the grades, write a feedback page for each student and one for the class.
+
+    Which attempt counts, and what lateness takes off, is said in course.toml. An attempt is as old as the first arrival
+    of its content: an old file graded again stays old. Files of one student that are named together are taken in the
+    order in which they were last changed.
+
+    Example: vml grade returned/*.xlsx --course dynamics-2026
+    """
+    from assignments.course import open_course
+    from grader.grading import Wanted, grade_collected, grade_files
+
+    opened = open_course(course)
+    moment = received and received.replace(tzinfo=received.tzinfo or opened.calendar.zone)
+    wanted = Wanted(show_truth, moment)
+    with resumable(), progress("grading") as show:
+        if files:
+            graded = grade_files(opened, files, wanted, progress=show)
+        else:
+            graded = grade_collected(opened, assignment, wanted, progress=show)
+    if as_json:
+        print_json([{**asdict(g), "file": str(g.file), "feedback": g.feedback or None} for g in graded])
+    else:
+        _print_graded(graded, opened.shelf.place())
+    if any(item.needs_attention for item in graded):
+        raise typer.Exit(1)
+
+
+def _print_graded(graded: Iterable[Graded], place: str) -> None:
+    from grader.feedback import points_text
+
+    graded = list(graded)
+    for item in graded:
+        earned = points_text(item.points, is_provisional=item.is_provisional)
+        points = f"{earned} / {points_text(item.out_of)}" if item.status in {"ok", "review"} else "–"
+        said = item.message.removeprefix(f"{item.file.name}: ")
+        line = f"{item.pid or '–':10}{points:>14}  {item.status:11}{item.file.name}{'  ' if said else ''}{said}"
+        typer.echo(line)
+    if not graded:
+        typer.echo("Nothing new was collected. Name workbooks, or run vml collect first.")
+    for assignment_id in dict.fromkeys(item.assignment_id for item in graded if item.assignment_id):
+        typer.echo(f"Class page: {place}/feedback/{assignment_id}/class.html")
+
+
+def release(
+    assignment: AssignmentArgument,
+    course: CourseOption,
+    dry_run: Annotated[bool, typer.Option("--dry-run", help="Only say what would change.")] = False,
+    as_json: JsonOption = False,
+) -> None:
+    """Fix what counts now, for students and platform: exports are made from the newest release.
+
+    Says first how it differs from the release before.
+
+    Example: vml release soccer-kick --course dynamics-2026
+    """
+    from assignments.course import open_course
+    from grader.releasing import release_grades
+
+    changes = release_grades(open_course(course), assignment, who=getpass.getuser(), dry_run=dry_run)
+    if as_json:
+        print_json([asdict(change) for change in changes])
+        return
+    for change in changes:
+        if change.differs:
+            typer.echo(f"{change.student.pid}  {change.student.name:28}{change.before_text:>9} -> {change.after:g}")
+    typer.echo(f"{len(changes)} grades, {sum(change.differs for change in changes)} of them changed.")
+    typer.echo("Nothing was released (--dry-run)." if dry_run else f"Next: vml export {assignment} --course {course}")

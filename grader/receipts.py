@@ -1,0 +1,158 @@
+"""Receipts: every file that came in, whose it is as far as anybody knows, and what became of it."""
+
+from __future__ import annotations
+
+import datetime as dt
+from dataclasses import dataclass
+from typing import Literal
+
+from sqlalchemy import Connection, insert, select, update
+
+from assignments.terms import Terms
+from grader import tables
+from grader.events import note, now
+
+Status = Literal["collected", "graded", "unreadable", "unmatched", "conflict"]
+
+
+@dataclass(frozen=True)
+class Arrived:
+    """A file that came in.
+
+    Attributes
+    ----------
+    file_sha256 : str
+        Its bytes lie in the inbox under this name.
+    name : str
+        As it was called.
+    source : str
+        A platform, or `files`.
+    assignment : str
+        "" when nobody knows yet.
+    pid : str
+        Whose it is, "" when nobody knows.
+    received_at : str
+        When it was handed in, ISO 8601 with a zone.
+    lms_ref : str
+        The platform's number of the file.
+    status, reason : str
+    """
+
+    file_sha256: str
+    name: str
+    source: str
+    received_at: str
+    assignment: str = ""
+    pid: str = ""
+    lms_ref: str = ""
+    status: Status = "collected"
+    reason: str = ""
+
+
+@dataclass(frozen=True)
+class Receipt:
+    """A file that came in, as the gradebook keeps it."""
+
+    id: int
+    arrived: Arrived
+
+
+def handed_in_at(terms: Terms, told: dt.datetime | None, *, is_late: bool | None, moment: dt.datetime) -> dt.datetime:
+    """Return when something counts as handed in.
+
+    Most platforms do not say in a download when a file came. Then it counts as in time, unless the platform calls
+    it late: a class that is collected the day after must not be late as a whole.
+
+    Parameters
+    ----------
+    terms : Terms
+    told : datetime or None
+        What the platform, or the person who collects, says.
+    is_late : bool or None
+        What the platform calls it, None when it does not say.
+    moment : datetime
+        When it is collected.
+    """
+    if told is not None:
+        return told
+    return moment if is_late or terms.due is None else min(moment, terms.due)
+
+
+def add_receipt(connection: Connection, arrived: Arrived) -> int:
+    """Add a receipt; the same bytes of the same name and student again are the same receipt."""
+    table = tables.receipt
+    student = connection.scalar(select(tables.student.c.id).where(tables.student.c.pid == arrived.pid))
+    same = select(table.c.id).where(
+        (table.c.file_sha256 == arrived.file_sha256)
+        & (table.c.original_name == arrived.name)
+        & (table.c.assignment == arrived.assignment)
+        & (table.c.student_id == student if student is not None else table.c.student_id.is_(None))
+    )
+    known = connection.scalar(same)
+    if known is not None:
+        return int(known)
+    line = {
+        "received_at": arrived.received_at,
+        "collected_at": now(),
+        "file_sha256": arrived.file_sha256,
+        "original_name": arrived.name,
+        "source": arrived.source,
+        "lms_ref": arrived.lms_ref or None,
+        "student_id": student,
+        "assignment": arrived.assignment,
+        "status": arrived.status,
+        "reason": arrived.reason,
+    }
+    made = connection.execute(insert(table).values(**line))
+    note(connection, "received", arrived.file_sha256, {"source": arrived.source, "status": arrived.status})
+    return int(made.inserted_primary_key[0])  # type: ignore[index]  # one row was inserted
+
+
+def settle_receipt(
+    connection: Connection, receipt: int, status: Status, reason: str = "", submission: int | None = None
+) -> None:
+    """Write what became of a file."""
+    table = tables.receipt
+    told = {"status": status, "reason": reason}
+    if submission is not None:
+        told["submission_id"] = submission  # type: ignore[assignment]  # a column of numbers
+    connection.execute(update(table).where(table.c.id == receipt).values(**told))
+
+
+def receipts_with(connection: Connection, status: Status, assignment: str = "") -> tuple[Receipt, ...]:
+    """Return receipts in the order in which the files were handed in."""
+    table = tables.receipt
+    wanted = (
+        select(table, tables.student.c.pid)
+        .select_from(table.outerjoin(tables.student, table.c.student_id == tables.student.c.id))
+        .where(table.c.status == status)
+        .order_by(table.c.received_at, table.c.id)
+    )
+    if assignment:
+        wanted = wanted.where(table.c.assignment == assignment)
+    return tuple(_receipt(row) for row in connection.execute(wanted).mappings())
+
+
+def knows_file(connection: Connection, sha256: str, assignment: str) -> bool:
+    """Tell whether these bytes came in before."""
+    table = tables.receipt
+    same = (table.c.file_sha256 == sha256) & (table.c.assignment == assignment)
+    return connection.scalar(select(table.c.id).where(same)) is not None
+
+
+def _receipt(row: object) -> Receipt:
+    line = dict(row)  # type: ignore[call-overload]  # a row's mapping
+    return Receipt(
+        line["id"],
+        Arrived(
+            file_sha256=line["file_sha256"],
+            name=line["original_name"],
+            source=line["source"],
+            received_at=line["received_at"],
+            assignment=line["assignment"],
+            pid=line["pid"] or "",
+            lms_ref=line["lms_ref"] or "",
+            status=line["status"],
+            reason=line["reason"],
+        ),
+    )

@@ -1,0 +1,271 @@
+"""From a platform's download to a release: whose each file is, when it came, what it came to."""
+
+from __future__ import annotations
+
+import datetime as dt
+import json
+import zipfile
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+from assignments.course import COURSE_FILE, Course, new_course, open_course
+from assignments.terms import Terms
+from assignments.variants import signature_of
+from assignments.workbook import fill_workbook, write_workbook
+from grader.collect import collect
+from grader.errors import CollectError, NothingGradedError
+from grader.gradebook import Gradebook
+from grader.grading import Wanted, grade_collected, grade_files
+from grader.receipts import handed_in_at
+from grader.releasing import release_grades, released_grades
+from grader.roster import Enrolled
+from vml_course.cli import run
+from vml_course.errors import FileMissingError
+
+SLUG = "soccer-kick"
+DUE = dt.datetime(2026, 5, 1, 22, 0, tzinfo=dt.UTC)
+
+
+@dataclass
+class Term:
+    """A course whose students Canvas knows as 901, 902, 903."""
+
+    course: Course
+    kit: object
+    assignment: object
+    pids: tuple[str, ...]
+
+    def say(self, toml: str) -> None:
+        """Add to the settings."""
+        self.course.shelf.write(COURSE_FILE, f'title = "x"\n{toml}'.encode())
+        self.course = open_course(self.course.folder)
+
+    def file(self, i: int, **changes: float) -> bytes:
+        """A filled workbook of one of them."""
+        numbers, folder = self.kit.impact(e=0.6 + 0.1 * i), self.course.folder
+        empty, filled = folder / "empty.xlsx", folder / "filled.xlsx"
+        code = f"CODE{i}"
+        variant = self.kit.variant_of(signature_of(self.course.secret, SLUG, code), code, self.pids[i])
+        write_workbook(empty, self.assignment, variant, {g.id: 1.0 for g in self.assignment.givens})
+        units = {q.id: q.unit for q in self.assignment.questions if q.unit}
+        answers = {**self.kit.rounded(self.kit.true_values(numbers)), **changes}
+        fill_workbook(empty, filled, answers, units, self.kit.table_of(self.kit.trajectory_m(numbers)))
+        return filled.read_bytes()
+
+    def download(self, **files: bytes) -> Path:
+        """A zip with these files."""
+        path = self.course.folder / "submissions.zip"
+        with zipfile.ZipFile(path, "w") as archive:
+            for name, data in files.items():
+                archive.writestr(name, data)
+        return path
+
+
+@pytest.fixture
+def term(tmp_path: Path, kit, assignment) -> Term:
+    course = new_course(tmp_path / "course")
+    with Gradebook.open(course) as book:
+        people = [Enrolled(f"S{i}", f"s{i}@x.org", {"canvas_id": f"90{i + 1}"}) for i in range(3)]
+        pids = tuple(arrival.student.pid for arrival in book.take_in(people))
+        for i, pid in enumerate(pids):
+            variant = kit.variant_of("", f"CODE{i}", pid)
+            book.keep_key(variant, kit.key_of(kit.impact(e=0.6 + 0.1 * i), code=f"CODE{i}", student=pid))
+    return Term(course, kit, assignment, pids)
+
+
+def _row(term: Term, i: int):
+    with Gradebook.open(term.course) as book:
+        return book.row(SLUG, term.pids[i])
+
+
+def test_a_download_is_matched_kept_and_graded(term: Term) -> None:
+    names = {f"s{i}_90{i + 1}_55{i}_lab.xlsx": term.file(i) for i in range(3)}
+    found = collect(term.course, SLUG, term.download(**names, **{"__MACOSX/x": b"", "s_901_1_.DS_Store": b""}))
+    assert [(item.status, item.pid, item.platform) for item in found[:3]] == [
+        ("matched", pid, "canvas") for pid in term.pids
+    ]
+    graded = grade_collected(term.course, SLUG)
+    assert [(item.pid, item.points, item.file.name) for item in graded] == [
+        (pid, item.out_of, "lab.xlsx") for pid, item in zip(term.pids, graded, strict=True)
+    ]
+    assert grade_collected(term.course, SLUG) == []  # nothing waits any more
+
+
+def test_collecting_again_takes_in_only_what_is_new(term: Term) -> None:
+    first = {"s_901_550_lab.xlsx": term.file(0)}
+    collect(term.course, SLUG, term.download(**first))
+    again = collect(term.course, SLUG, term.download(**first, **{"s_901_551_lab-2.xlsx": term.file(0, e=0.5)}))
+    assert [item.status for item in again] == ["duplicate", "matched"]
+    assert len(grade_collected(term.course, SLUG)) == 2
+    assert _row(term, 0).attempts == 2
+
+
+def test_a_trial_keeps_nothing(term: Term) -> None:
+    collect(term.course, SLUG, term.download(**{"s_901_550_lab.xlsx": term.file(0)}), dry_run=True)
+    with Gradebook.open(term.course) as book:
+        assert book.receipts("collected") == ()
+    assert not (term.course.folder / "inbox").exists()
+
+
+def test_where_platform_and_workbook_disagree_a_person_decides(term: Term) -> None:
+    (found,) = collect(term.course, SLUG, term.download(**{"s_902_550_lab.xlsx": term.file(0)}))
+    assert found.status == "conflict"
+    assert found.message == f"The workbook is {term.pids[0]}'s, the platform says {term.pids[1]}."
+    assert grade_collected(term.course, SLUG) == []
+
+
+def test_the_workbook_alone_says_whose_it_is(term: Term) -> None:
+    folder = term.course.folder / "unpacked"
+    (folder / "deep").mkdir(parents=True)
+    (folder / "deep" / "anything.xlsx").write_bytes(term.file(2))
+    (found,) = collect(term.course, SLUG, folder)
+    assert (found.status, found.pid, found.platform) == ("matched", term.pids[2], "")
+
+
+def test_what_nobody_can_read_is_kept_with_its_reason(term: Term) -> None:
+    found = collect(term.course, SLUG, term.download(**{"s_901_1_lab.xlsx": b"no", "other.xlsx": b"neither"}))
+    assert [(item.status, item.pid) for item in found] == [("unreadable", term.pids[0]), ("unmatched", "")]
+    with Gradebook.open(term.course) as book:
+        (receipt,) = book.receipts("unreadable", SLUG)
+        assert receipt.arrived.pid == term.pids[0]
+        assert "expected an Excel workbook" in receipt.arrived.reason
+        assert len(book.receipts("unmatched")) == 1
+    assert run(["gradebook", "verify", "--course", str(term.course.folder)]) == 0
+
+
+def test_a_changed_file_in_the_inbox_shows(term: Term, capsys) -> None:
+    collect(term.course, SLUG, term.download(**{"s_901_550_lab.xlsx": term.file(0)}))
+    (kept,) = (path for path in (term.course.folder / "inbox").rglob("*") if path.is_file())
+    kept.chmod(0o600)
+    kept.write_bytes(b"other")
+    assert run(["gradebook", "verify", "--course", str(term.course.folder)]) == 1
+    assert "1 missing or changed" in capsys.readouterr().out
+    kept.unlink()
+    assert run(["gradebook", "verify", "--course", str(term.course.folder)]) == 1
+    assert "missing" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("told", "is_late", "expected"),
+    [
+        (None, None, DUE),  # the platform does not say: in time
+        (None, False, DUE),
+        (None, True, DUE + dt.timedelta(hours=5)),
+        (DUE + dt.timedelta(hours=1), None, DUE + dt.timedelta(hours=1)),
+        (DUE - dt.timedelta(hours=1), True, DUE - dt.timedelta(hours=1)),
+    ],
+)
+def test_when_something_was_handed_in(told, is_late, expected) -> None:
+    moment = DUE + dt.timedelta(hours=5)
+    assert handed_in_at(Terms(due=DUE), told, is_late=is_late, moment=moment) == expected
+    assert handed_in_at(Terms(), None, is_late=is_late, moment=moment) == moment
+
+
+LATE = """[assignment.soccer-kick]
+due = 2026-05-01T22:00:00Z
+closes = 2026-05-02T22:00:00Z
+late = { rule = "fixed", share = 0.5 }
+"""
+
+
+def test_a_class_that_is_collected_later_is_not_late_but_what_blackboard_dates_is(term: Term) -> None:
+    term.say(LATE)
+    files = {
+        "Lab_nobody_attempt_2026-05-01-23-00-00_lab.xlsx": term.file(0),
+        "Lab_nobody_attempt_2026-05-03-00-00-00_lab.xlsx": term.file(1),
+        "s_903_5_lab.xlsx": term.file(2),
+    }
+    collect(term.course, SLUG, term.download(**files))
+    graded = grade_collected(term.course, SLUG)
+    assert [_row(term, i).late_share for i in range(3)] == [0.5, 1.0, 0.0]
+    closed = next(item for item in graded if item.pid == term.pids[1])
+    assert "This attempt does not count" in closed.message
+
+
+def test_true_values_are_shown_when_nobody_can_hand_in_any_more(term: Term) -> None:
+    path = term.course.folder / "w.xlsx"
+    path.write_bytes(term.file(0))
+    for toml, is_shown in (("", False), (LATE.replace("2026", "2100"), False), (LATE, True)):
+        term.say(toml)
+        (graded,) = grade_files(term.course, [path])
+        assert ("True value" in Path(graded.feedback).read_text(encoding="utf-8")) is is_shown
+    term.say(LATE.replace("2026", "2100") + "attempts = 1\n")
+    (graded,) = grade_files(term.course, [path])
+    assert "True value" in Path(graded.feedback).read_text(encoding="utf-8")
+    (graded,) = grade_files(term.course, [path], Wanted(show_truth=False))
+    assert "True value" not in Path(graded.feedback).read_text(encoding="utf-8")
+
+
+def test_a_file_that_nobody_dates_counts_as_in_time_unless_somebody_says(term: Term) -> None:
+    term.say(LATE)
+    path = term.course.folder / "w.xlsx"
+    path.write_bytes(term.file(0))
+    grade_files(term.course, [path], Wanted(received=DUE + dt.timedelta(hours=1)))
+    assert _row(term, 0).late_share == 0.5
+    path.write_bytes(term.file(1))
+    grade_files(term.course, [path])
+    assert _row(term, 1).late_share == 0.0
+
+
+# ---------------------------------------------------------------- release
+
+
+def test_a_release_fixes_what_counts_and_the_next_one_says_what_changed(term: Term) -> None:
+    path = term.course.folder / "w.xlsx"
+    for i in range(2):
+        path.write_bytes(term.file(i))
+        grade_files(term.course, [path])
+    full = _row(term, 0).out_of
+    changes = release_grades(term.course, SLUG, who="tutor")
+    assert [(change.before, change.after, change.differs) for change in changes] == [(None, full, True)] * 2
+    path.write_bytes(term.file(0, e=0.1))
+    grade_files(term.course, [path])
+    with Gradebook.open(term.course) as book:
+        assert [one.points for one in released_grades(book, SLUG)] == [full, full]
+    trial = release_grades(term.course, SLUG, who="tutor", dry_run=True)
+    assert [change.differs for change in trial] == [True, False]
+    release_grades(term.course, SLUG, who="tutor")
+    with Gradebook.open(term.course) as book:
+        assert [one.points < full for one in released_grades(book, SLUG)] == [True, False]
+        assert book.is_whole()
+
+
+def test_nothing_graded_cannot_be_released(term: Term) -> None:
+    with pytest.raises(NothingGradedError, match="expected grades, got none"):
+        release_grades(term.course, SLUG, who="tutor")
+
+
+# ---------------------------------------------------------------- at the prompt
+
+
+def test_the_commands_collect_grade_and_release(term: Term, capsys) -> None:
+    at = ["--course", str(term.course.folder)]
+    download = str(term.download(**{"s_901_550_lab.xlsx": term.file(0), "s_902_1_lab.xlsx": term.file(1)}))
+    assert run(["collect", SLUG, download, *at, "--dry-run"]) == 0
+    assert "Nothing was kept (--dry-run)." in capsys.readouterr().out
+    assert run(["collect", SLUG, download, *at, "--lms", "canvas"]) == 0
+    assert "2 matched." in capsys.readouterr().out
+    assert run(["grade", *at, "--json"]) == 0
+    assert [item["status"] for item in json.loads(capsys.readouterr().out)] == ["ok", "ok"]
+    assert run(["grade", *at]) == 0
+    assert "Nothing new was collected." in capsys.readouterr().out
+    assert run(["release", SLUG, *at]) == 0
+    assert "2 grades, 2 of them changed." in capsys.readouterr().out
+    assert run(["collect", SLUG, str(term.download(**{"x.xlsx": b"no"})), *at]) == 1
+    assert run(["collect", "no-such", download, *at]) == 2
+    assert run(["collect", SLUG, download, *at, "--lms", "webct"]) == 2
+
+
+def test_what_is_no_download_is_one_line(term: Term) -> None:
+    nothing = term.course.folder / "nothing"
+    nothing.mkdir()
+    broken = term.course.folder / "broken.zip"
+    broken.write_bytes(b"PK no")
+    with pytest.raises(CollectError, match="expected 1 to 20000 files, got 0"):
+        collect(term.course, SLUG, nothing)
+    with pytest.raises(CollectError, match="expected a zip as the platform gives it"):
+        collect(term.course, SLUG, broken)
+    with pytest.raises(FileMissingError, match="expected a zip or a folder"):
+        collect(term.course, SLUG, term.course.folder / "none.zip")
