@@ -112,7 +112,8 @@ class ClusterExecutor(Crew):
     @property
     def most_under_way(self) -> int:
         """Return what keeps the workers busy that are there now; a cluster grows and shrinks."""
-        return AHEAD * max(1, sum(self._client.nthreads().values()))
+        threads: dict[str, int] = self._client.nthreads()
+        return AHEAD * max(1, sum(threads.values()))
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
         """Run `fn` on the cluster."""
