@@ -3,23 +3,20 @@
 from __future__ import annotations
 
 import getpass
-import json
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Iterable
 from dataclasses import asdict
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from grader._command_parts import CourseOption, JsonOption, print_json, resumable
+from grader.handout_commands import handout
 from vml_course.commands._progress import progress, stages
 
 if TYPE_CHECKING:
     from grader.form import Checked
     from grader.usecases import Graded
-
-CourseOption = Annotated[Path, typer.Option("--course", metavar="DIR", help="The course folder.")]
-JsonOption = Annotated[bool, typer.Option("--json", help="Print the result as JSON.")]
 
 
 def register(app: typer.Typer) -> None:
@@ -57,7 +54,7 @@ def demo(
         result = run_demo(out, students, workers, say)
     if as_json:
         graded = [{**asdict(g), "file": str(g.file), "feedback": str(g.feedback)} for g in result.graded]
-        _print_json({"course": str(result.course), "stories": dict(result.stories), "graded": graded})
+        print_json({"course": str(result.course), "stories": dict(result.stories), "graded": graded})
         return
     typer.echo(f"A sample course of {students} is in {result.course}. What the students did, and what the grader says:")
     for item in result.graded:
@@ -67,35 +64,6 @@ def demo(
     for item in result.graded:
         typer.echo(f"  feedback page   {item.feedback}")
     typer.echo(f"Videos and tracks: {result.course / 'students'}; handouts: {result.course / 'handouts'}")
-
-
-def handout(
-    assignment: Annotated[str, typer.Argument(help="Name of the assignment, such as soccer-kick.")],
-    course: CourseOption,
-    student: Annotated[
-        list[str] | None, typer.Option("--student", metavar="PID", help="Only this pseudonym. Repeatable.")
-    ] = None,
-    workers: Annotated[int, typer.Option(min=1, max=64, help="Processes that render at the same time.")] = 1,
-    as_json: JsonOption = False,
-) -> None:
-    """Make every student of the roster a video, a workbook and a handout of their own.
-
-    Example: vml handout soccer-kick --course dynamics-2026 --workers 2
-    """
-    from assignments.course import open_course
-    from grader.usecases import hand_out_to
-
-    with _resumable(), progress("handing out") as show:
-        handed, students = hand_out_to(open_course(course), assignment, student or (), workers=workers, progress=show)
-    if as_json:
-        _print_json([{**asdict(item), "folder": str(item.folder)} for item in handed])
-    else:
-        for item in handed:
-            name = students[item.student].name
-            typer.echo(f"{item.student}  {item.status:8}{name:24}{item.reason or item.folder}")
-        typer.echo(f"{sum(item.status != 'failed' for item in handed)} of {len(handed)} handed out.")
-    if any(item.status == "failed" for item in handed):
-        raise typer.Exit(1)
 
 
 def grade(
@@ -123,10 +91,10 @@ def grade(
     from grader.usecases import grade_files
 
     opened = open_course(course)
-    with _resumable(), progress("grading") as show:
+    with resumable(), progress("grading") as show:
         graded = grade_files(opened, files, show_truth=show_truth, progress=show)
     if as_json:
-        _print_json([{**asdict(g), "file": str(g.file), "feedback": g.feedback and str(g.feedback)} for g in graded])
+        print_json([{**asdict(g), "file": str(g.file), "feedback": g.feedback and str(g.feedback)} for g in graded])
     else:
         _print_graded(graded, opened.folder)
     if any(item.needs_attention for item in graded):
@@ -161,7 +129,7 @@ def check(
 
     result = check_workbook(workbook)
     if as_json:
-        _print_json({**asdict(result), "is_complete": result.is_complete})
+        print_json({**asdict(result), "is_complete": result.is_complete})
     else:
         for answer in result.answers:
             typer.echo(f"{_mark(answer)} {answer.label}: {answer.says}")
@@ -188,7 +156,7 @@ def show(course: CourseOption, as_json: JsonOption = False) -> None:
     with Gradebook.open(open_course(course)) as book:
         rows, students = book.rows(), book.students()
     if as_json:
-        _print_json([asdict(row) for row in rows])
+        print_json([asdict(row) for row in rows])
         return
     for row in rows:
         who = f"{row.student.pid}  {row.student.name:24}{row.assignment_id:16}"
@@ -224,26 +192,9 @@ def set_(
     adjustment = Adjustment(question, points, reason, getpass.getuser(), now())
     row = set_points(open_course(course), assignment, pid, adjustment)
     if as_json:
-        _print_json(asdict(row))
+        print_json(asdict(row))
         return
     typer.echo(f"{pid}: {adjustment}")
     earned = points_text(row.points, is_provisional=row.is_provisional)
     typer.echo(f"{earned} / {points_text(row.out_of)}  {row.status}  {' '.join(row.reasons)}".rstrip())
     typer.echo("The class page is written anew; the student's page shows it when their file is graded again.")
-
-
-# ---------------------------------------------------------------- shared
-
-
-@contextmanager
-def _resumable() -> Iterator[None]:
-    """Say that nothing is lost when a long run is stopped by hand."""
-    try:
-        yield
-    except KeyboardInterrupt:
-        typer.echo("vml: stopped; run the same command again to continue.", err=True)
-        raise typer.Exit(130) from None
-
-
-def _print_json(result: Any) -> None:
-    typer.echo(json.dumps(result, ensure_ascii=False, indent=1))

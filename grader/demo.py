@@ -18,7 +18,8 @@ from assignments.release import WORKBOOK
 from assignments.usecases import HandedOut
 from assignments.workbook import fill_workbook
 from grader.gradebook import Gradebook
-from grader.usecases import FEEDBACK, Graded, grade_files, hand_out_to
+from grader.handing_out import hand_out_to
+from grader.usecases import FEEDBACK, Graded, grade_files
 from vml_course.errors import InputError
 from vml_course.kinetics.lines import solve_by_lines
 from vml_course.model.track import Seed
@@ -110,9 +111,9 @@ def run_demo(folder: Path, students: int, workers: int, say: Say) -> DemoResult:
     course = _sample_course(folder, students)
     title = "simulate, render, and solve before release"
     say(title, 0.0)
-    handed, _ = hand_out_to(
-        course, ASSIGNMENT, (), workers=workers, progress=lambda done, total: say(title, 0.5 * done / total)
-    )
+    handed = hand_out_to(
+        course, ASSIGNMENT, workers=workers, progress=lambda done, total: say(title, 0.5 * done / total)
+    ).results
     assignment, returned = load_assignment(ASSIGNMENT), []
     for number, item in enumerate(handed):
         if item.status == "failed":

@@ -1,4 +1,4 @@
-"""What the grader does for people: grade a batch of files, check one's own file, hand variants out."""
+"""What the grader does for people: grade a batch of files, settle what needs a person."""
 
 from __future__ import annotations
 
@@ -12,20 +12,19 @@ from pathlib import Path
 from assignments.course import Course
 from assignments.load import load_assignment
 from assignments.model import AnswerKey, Assignment
-from assignments.usecases import HandedOut, hand_out
 from assignments.variants import signature_of
 from grader.adjust import Adjustment
 from grader.errors import UnknownVariantError
 from grader.feedback import Report, class_page, feedback_page
 from grader.grade import grade
-from grader.gradebook import Gradebook, Row, Student
+from grader.gradebook import Gradebook, Row
 from grader.inbox import receive
 from grader.model import Submission
 from grader.plausible import settle_readings
 from grader.read import ReadRequest, claims_of, find_submission, read_workbook
 from grader.read.locate import Claims
 from grader.template import template_cells
-from vml_course.errors import FileMissingError, InputError, VmlError
+from vml_course.errors import FileMissingError, VmlError
 from vml_course.io.files import replacing
 
 FEEDBACK = "feedback"
@@ -218,42 +217,3 @@ def set_points(course: Course, assignment_id: str, pid: str, adjustment: Adjustm
         row = gradebook.adjust(assignment, pid, adjustment)
         write_class_page(course, gradebook, assignment)
     return row
-
-
-# ---------------------------------------------------------------- hand out
-
-
-def hand_out_to(
-    course: Course, assignment_id: str, pids: Sequence[str], *, workers: int = 1, progress: Progress | None = None
-) -> tuple[list[HandedOut], dict[str, Student]]:
-    """Hand an assignment to the students of the roster, or to those named by pseudonym.
-
-    Returns
-    -------
-    handed : list of HandedOut
-    students : dict of str to Student
-        By pseudonym.
-
-    Raises
-    ------
-    NoKeyError, FileMissingError, RosterError
-        When a pseudonym is unknown, or there is no class list.
-    """
-    assignment = load_assignment(assignment_id)
-    with Gradebook.open(course) as gradebook:
-        gradebook.students_from_roster(course.roster)
-        students = {student.pid: student for student in gradebook.students()}
-        for pid in pids:
-            if pid not in students:
-                raise InputError("student", "a pseudonym of this course", repr(pid), "See: vml gradebook show.")
-        chosen = list(pids) or list(students)
-        handed = hand_out(
-            course,
-            assignment,
-            chosen,
-            keep=gradebook.keep_key,
-            is_kept=lambda pid: gradebook.has_key(assignment_id, pid),
-            workers=workers,
-            progress=progress,
-        )
-    return handed, students

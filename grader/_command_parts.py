@@ -1,0 +1,29 @@
+"""What several commands of this package share."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+CourseOption = Annotated[Path, typer.Option("--course", metavar="DIR", help="The course folder.")]
+JsonOption = Annotated[bool, typer.Option("--json", help="Print the result as JSON.")]
+
+
+@contextmanager
+def resumable() -> Iterator[None]:
+    """Say that nothing is lost when a long run is stopped by hand."""
+    try:
+        yield
+    except KeyboardInterrupt:
+        typer.echo("vml: stopped; run the same command again to continue.", err=True)
+        raise typer.Exit(130) from None
+
+
+def print_json(result: Any) -> None:
+    """Print a result for programs."""
+    typer.echo(json.dumps(result, ensure_ascii=False, indent=1))
