@@ -78,7 +78,7 @@ class Course:
     Attributes
     ----------
     folder : Path
-        The folder of this machine: secret, gradebook, and where handouts are made.
+        The folder of this machine: secret, gradebook, names, what handing out cost.
     shelf : Shelf
         Where everything else lies; the same folder unless the course is in an object store.
     gradebook_url : str
@@ -88,10 +88,10 @@ class Course:
     folder: Path
     title: str
     secret: bytes = field(repr=False)
+    shelf: Shelf = field(compare=False)
     term: str = ""
     calendar: Calendar = field(default_factory=Calendar)
     gradebook_url: str = field(default="", repr=False)  # it may hold a password
-    shelf: Shelf = field(default_factory=lambda: FolderShelf(Path()), compare=False)
 
     @property
     def roster(self) -> Path:
@@ -99,7 +99,7 @@ class Course:
         return self.folder / ROSTER_FILE
 
     def handouts(self, assignment_id: str) -> Path:
-        """Return the folder of an assignment's handouts, one folder a student."""
+        """Return the folder of an assignment's handouts, where the course is a folder of this machine."""
         return self.folder / HANDOUTS / assignment_id
 
 

@@ -31,9 +31,18 @@ class CourseError(InputError):
 
 
 class NotMeasuredError(VmlError):
-    """The reference did not find the truth of a video within half of the student's tolerance."""
+    """The reference did not find the truth of a video within half of the student's tolerance (`allowed`, absolute)."""
 
     def __init__(self, symbol: str, truth: float, found: float, allowed: float) -> None:
         self.symbol, self.truth, self.found, self.allowed = symbol, truth, found, allowed
-        off = abs(found / truth - 1) if truth else abs(found)
-        super().__init__(f"{symbol}: expected to be measured within {allowed:.2%}, got {off:.2%}.")
+        off, unit = abs(found - truth), abs(truth)
+        words = f"{allowed / unit:.2%}, got {off / unit:.2%}" if unit else f"{allowed:.3g}, got {off:.3g}"
+        super().__init__(f"{symbol}: expected to be measured within {words}.")
+
+
+class UnfairError(VmlError):
+    """A variant could not be measured sharply enough, by what is known before it is rendered."""
+
+    def __init__(self, symbol: str, sd: float, allowed: float) -> None:
+        self.symbol, self.sd, self.allowed = symbol, sd, allowed
+        super().__init__(f"{symbol}: expected a predicted sd of at most {allowed:.3g}, got {sd:.3g}.")

@@ -201,6 +201,10 @@ class Variant:
     generator_version : str
     signature : str
         The course's signature of `code`: shows that a workbook was handed out by this course.
+    scene : str
+        Name of the scene that `parameters` belong to: a catalogue may change, what was handed out does not.
+    words : mapping of str to str
+        The scene's settings that are words, where they are not the usual ones.
     """
 
     assignment_id: str
@@ -213,6 +217,8 @@ class Variant:
     redraws: int
     generator_version: str
     signature: str = ""
+    scene: str = ""
+    words: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,4 +1,4 @@
-"""Hand out an assignment: a folder for every student, a key for the instructor.
+"""Hand out an assignment: a folder and a zip for every student, a key for the instructor.
 
 A student's folder is made under a temporary name and takes its own only when it is complete and its key is
 kept. So a run that was killed goes on where it stopped, and a second run changes nothing.
@@ -6,19 +6,22 @@ kept. So a run that was killed goes on where it stopped, and a second run change
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from concurrent.futures import Future, as_completed
-from dataclasses import dataclass
+from concurrent.futures import Future
+from contextlib import contextmanager
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal
 
-from assignments.course import Course
+from assignments.costs import Cost, cost_of, keep_cost
+from assignments.course import HANDOUTS, Course
 from assignments.model import AnswerKey, Assignment, Variant
-from assignments.release import HANDOUT, WORKBOOK, Order, Release, release
-from assignments.workplace import sweep, workplace_prefix
-from vml_course.errors import InputError, VmlError
-from vml_course.executors import open_executor
+from assignments.release import Order, Release, release
+from assignments.tray import Tray, check_pseudonyms
+from vml_course.errors import VmlError
+from vml_course.executors import each_done, open_executor
+
+__all__ = ["HandedOut", "cost_file", "hand_out", "look_through", "tray_of"]
 
 Keep = Callable[[Variant, AnswerKey], None]
 IsKept = Callable[[str], bool]
@@ -33,23 +36,53 @@ class HandedOut:
     ----------
     student : str
         The pseudonym.
-    folder : Path
+    folder : str
+        Where it lies.
     status : str
-        "made", "already" (complete from an earlier run) or "failed".
+        "made", "already" (complete from an earlier run), "failed", or "missing" (nobody tried).
     redraws : int
         Draws that were rejected, by rule or by measurement; 0 when nothing was made.
     refused : tuple of str
-        Why variants were rendered but not released.
+        Why variants that kept all rules were not released.
     reason : str
         Why it failed.
     """
 
     student: str
-    folder: Path
-    status: Literal["made", "already", "failed"]
+    folder: str
+    status: Literal["made", "already", "failed", "missing"]
     redraws: int = 0
     refused: tuple[str, ...] = ()
     reason: str = ""
+
+
+def look_through(
+    course: Course, assignment: Assignment, students: Sequence[str], is_kept: IsKept | None = None
+) -> list[HandedOut]:
+    """Tell who has something ("already") and who would get it ("missing"); nothing is written.
+
+    Parameters
+    ----------
+    course : Course
+    assignment : Assignment
+    students : sequence of str
+        Pseudonyms.
+    is_kept : callable, optional
+        Whether a student's key is kept already; a complete folder without its key is made anew. Without it, a
+        complete folder is trusted.
+
+    Raises
+    ------
+    InputError
+        When a pseudonym cannot name a folder.
+    """
+    check_pseudonyms(students)
+    tray = tray_of(course, assignment)
+
+    def has(student: str) -> bool:
+        return tray.holds(student) and (is_kept is None or is_kept(student))
+
+    return [HandedOut(s, tray.folder(s), "already" if has(s) else "missing") for s in students]
 
 
 def hand_out(  # noqa: PLR0913 - four things to hand out, and how
@@ -60,26 +93,24 @@ def hand_out(  # noqa: PLR0913 - four things to hand out, and how
     *,
     is_kept: IsKept | None = None,
     workers: int = 1,
-    due: str = "",
+    cluster: str = "",
+    due: Callable[[str], str] | None = None,
     progress: Progress | None = None,
 ) -> list[HandedOut]:
     """Make video, workbook and handout for every student, and keep the keys.
 
     Parameters
     ----------
-    course : Course
-    assignment : Assignment
-    students : sequence of str
-        Pseudonyms: they name the folders.
+    course, assignment, students, is_kept
+        As `look_through`.
     keep : callable
         Told each variant and its key before the student's folder appears; called in this process.
-    is_kept : callable, optional
-        Whether a student's key is kept already; a complete folder is then left alone. Without it, a
-        complete folder is trusted.
     workers : int
         Processes that work at the same time.
-    due : str
-        Date that the handout shows.
+    cluster : str
+        Address of a dask scheduler that does the work instead; `local:N` starts one.
+    due : callable, optional
+        Told a pseudonym, returns the date that the handout shows.
     progress : callable, optional
         Told how many students are done, of how many.
 
@@ -91,80 +122,76 @@ def hand_out(  # noqa: PLR0913 - four things to hand out, and how
     Raises
     ------
     InputError
-        When a pseudonym cannot name a folder.
+        When a pseudonym cannot name a folder, or there are no such workers.
     """
-    home = course.handouts(assignment.id)
-    _check_names(students)
-    home.mkdir(parents=True, exist_ok=True)
-    results = {s: HandedOut(s, home / s, "already") for s in students if _is_done(home / s, s, is_kept)}
-    missing = [student for student in students if student not in results]
-    tell = progress or (lambda _done, _total: None)
-    tell(len(results), len(students))
-    # The truth lies beside the video while it is made: never inside the folder that is handed out.
-    sweep(course.folder)
-    with tempfile.TemporaryDirectory(prefix=workplace_prefix(), dir=course.folder) as work:
-        orders = (_order(Path(work), course, assignment, student, due) for student in missing)
-        for order, future in _releases(orders, workers):
-            results[order.student] = _finish(future, home / order.student, Path(order.out), keep)
-            tell(len(results), len(students))
+    results = {found.student: found for found in look_through(course, assignment, students, is_kept)}
+    missing = [student for student in results if results[student].status == "missing"]
+    tray, tell = tray_of(course, assignment), progress or (lambda _done, _total: None)
+    for student in results.keys() - set(missing):
+        tray.mend(student)
+    tell(len(results) - len(missing), len(results))
+    if missing:
+        course.handouts(assignment.id).parent.mkdir(parents=True, exist_ok=True)
+        orders = (Order(assignment, course.secret, s, due(s) if due else "") for s in missing)
+        with open_executor(workers, cluster) as executor:
+            desk = _Desk(tray, keep, log_file(course, assignment))
+            with desk.keeping_cost(cost_file(course, assignment)):
+                for done, (order, future) in enumerate(each_done(executor, release, orders), start=1):
+                    results[order.student] = desk.finish(order.student, future)
+                    tell(len(results) - len(missing) + done, len(results))
     return [results[student] for student in students]
 
 
-def is_complete(folder: Path) -> bool:
-    """Tell whether a student's folder holds everything."""
-    return all((folder / name).is_file() for name in (WORKBOOK, HANDOUT)) and any(folder.glob("video.*"))
+def tray_of(course: Course, assignment: Assignment) -> Tray:
+    """Return where the handouts of an assignment lie."""
+    return Tray(course.shelf, f"{HANDOUTS}/{assignment.id}")
 
 
-def _releases(orders: Iterable[Order], workers: int) -> Iterator[tuple[Order, Future[Release]]]:
-    """Yield each order as soon as it is done, whichever is first."""
-    pending: dict[Future[Release], Order] = {}
-    with open_executor(workers) as executor:
-        for order in orders:
-            future = executor.submit(release, order)
-            if future.done():  # at once, where this process does the work
-                yield order, future
-            else:
-                pending[future] = order
-        for future in as_completed(pending):
-            yield pending[future], future
+def cost_file(course: Course, assignment: Assignment) -> Path:
+    """Return where it is kept what handing out cost."""
+    return course.handouts(assignment.id).with_name(f"cost-{assignment.id}.json")
 
 
-def _order(work: Path, course: Course, assignment: Assignment, student: str, due: str) -> Order:
-    inside, out = work / student / "work", work / student / "out"
-    inside.mkdir(parents=True)
-    out.mkdir()
-    return Order(assignment, course.secret, student, str(inside), str(out), due)
+def log_file(course: Course, assignment: Assignment) -> Path:
+    """Return where it is kept which variants were drawn again, and why."""
+    return course.handouts(assignment.id).with_name(f"redrawn-{assignment.id}.log")
 
 
-def _finish(future: Future[Release], folder: Path, made: Path, keep: Keep) -> HandedOut:
-    """Keep the key, then give the folder its name; whatever goes wrong concerns this student only."""
-    try:
-        released = future.result()
-        keep(released.variant, released.key)
-        _replace(made, folder)
-    except VmlError as error:
-        return HandedOut(folder.name, folder, "failed", reason=str(error))
-    except Exception as error:  # noqa: BLE001 - one student's failure stops nobody else
-        return HandedOut(folder.name, folder, "failed", reason=f"{type(error).__name__}: {error}")
-    return HandedOut(folder.name, folder, "made", released.variant.redraws, released.refused)
+@dataclass
+class _Desk:
+    """Where what was made is taken in, one student after the other."""
 
+    tray: Tray
+    keep: Keep
+    log: Path
+    cost: Cost = field(default_factory=Cost)
 
-def _replace(made: Path, folder: Path) -> None:
-    """Put the new folder in place of what an interrupted run may have left."""
-    if folder.exists():
-        folder.rename(made.with_name("left-over"))
-    made.rename(folder)
+    def finish(self, student: str, future: Future[Release]) -> HandedOut:
+        """Keep the key, then give the folder its name; whatever goes wrong concerns this student only."""
+        folder = self.tray.folder(student)
+        try:
+            released = future.result()
+            self.keep(released.variant, released.key)
+            self.tray.put(student, released.files)
+        except VmlError as error:
+            return HandedOut(student, folder, "failed", reason=str(error))
+        except Exception as error:  # noqa: BLE001 - one student's failure stops nobody else
+            return HandedOut(student, folder, "failed", reason=f"{type(error).__name__}: {error}")
+        self.cost += cost_of(released)
+        self._log(student, released.refused)
+        return HandedOut(student, folder, "made", released.variant.redraws, released.refused)
 
+    @contextmanager
+    def keeping_cost(self, path: Path) -> Iterator[None]:
+        """Keep what releases cost at the end of the block, also when it is stopped by hand."""
+        try:
+            yield
+        finally:
+            if self.cost.students:
+                keep_cost(path, self.cost)
 
-def _is_done(folder: Path, student: str, is_kept: IsKept | None) -> bool:
-    return is_complete(folder) and (is_kept is None or is_kept(student))
-
-
-def _check_names(students: Iterable[str]) -> None:
-    for student in students:
-        if (
-            not student
-            or student.startswith(".")
-            or not all(c.isascii() and (c.isalnum() or c in "-_") for c in student)
-        ):
-            raise InputError("student", "a pseudonym of letters, digits, - and _", repr(student))
+    def _log(self, student: str, refused: Iterable[str]) -> None:
+        lines = "".join(f"{student} {why}\n" for why in refused)
+        if lines:
+            with self.log.open("a", encoding="utf-8", newline="\n") as file:
+                file.write(lines)

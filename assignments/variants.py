@@ -173,6 +173,8 @@ def _variant(
         redraws=redraws,
         generator_version=GENERATOR_VERSION,
         signature=signature_of(secret, assignment.id, code),
+        scene=assignment.scene,
+        words=dict(assignment.words),
     )
 
 

@@ -1,4 +1,4 @@
-"""Where handouts are made: a hidden folder in the course that tells whose it is, so that a dead one can go.
+"""Where handouts are made: a hidden folder whose name tells whose it is, so that a dead one can go.
 
 A run that was killed cannot clean up after itself; the next one does.
 """
@@ -10,7 +10,10 @@ import os
 import platform
 import re
 import shutil
+import tempfile
 import zlib
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 PREFIX = ".making-"
@@ -23,9 +26,24 @@ def workplace_prefix(process: int | None = None) -> str:
     return f"{PREFIX}{_machine()}-{os.getpid() if process is None else process}-"
 
 
-def sweep(course_folder: Path) -> None:
+@contextmanager
+def working_folder(parent: Path | None = None) -> Iterator[Path]:
+    """Give a folder that only its owner can read, gone after the block; what dead runs left beside it goes first.
+
+    Parameters
+    ----------
+    parent : Path, optional
+        The system's folder for temporary files when not given: a worker needs no course.
+    """
+    parent = parent or Path(tempfile.gettempdir())
+    sweep(parent)
+    with tempfile.TemporaryDirectory(prefix=workplace_prefix(), dir=parent, ignore_cleanup_errors=True) as folder:
+        yield Path(folder)
+
+
+def sweep(parent: Path) -> None:
     """Remove working folders whose process is gone, or in which nothing was begun for a day."""
-    for folder in course_folder.glob(f"{PREFIX}*"):
+    for folder in parent.glob(f"{PREFIX}*"):
         if folder.is_dir() and not folder.is_symlink() and _is_left_over(folder):
             shutil.rmtree(folder, ignore_errors=True)
 

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from grader import gradebook_commands, grading_commands, roster_commands
-from grader._options import CourseOption, JsonOption, print_json, resumable
-from vml_course.commands._progress import progress, stages
+from grader._options import JsonOption, print_json
+from grader.handout_commands import handout
+from vml_course.commands._progress import stages
 
 if TYPE_CHECKING:
     from grader.form import Checked
@@ -52,35 +53,6 @@ def demo(
     for item in result.graded:
         typer.echo(f"  feedback page   {item.feedback}")
     typer.echo(f"Videos and tracks: {result.course / 'students'}; handouts: {result.course / 'handouts'}")
-
-
-def handout(
-    assignment: Annotated[str, typer.Argument(help="Name of the assignment, such as soccer-kick.")],
-    course: CourseOption,
-    student: Annotated[
-        list[str] | None, typer.Option("--student", metavar="PID", help="Only this pseudonym. Repeatable.")
-    ] = None,
-    workers: Annotated[int, typer.Option(min=1, max=64, help="Processes that render at the same time.")] = 1,
-    as_json: JsonOption = False,
-) -> None:
-    """Make every student of the roster a video, a workbook and a handout of their own.
-
-    Example: vml handout soccer-kick --course dynamics-2026 --workers 2
-    """
-    from assignments.course import open_course
-    from grader.usecases import hand_out_to
-
-    with resumable(), progress("handing out") as show:
-        handed, students = hand_out_to(open_course(course), assignment, student or (), workers=workers, progress=show)
-    if as_json:
-        print_json([{**asdict(item), "folder": str(item.folder)} for item in handed])
-    else:
-        for item in handed:
-            name = students[item.student].name
-            typer.echo(f"{item.student}  {item.status:8}{name:24}{item.reason or item.folder}")
-        typer.echo(f"{sum(item.status != 'failed' for item in handed)} of {len(handed)} handed out.")
-    if any(item.status == "failed" for item in handed):
-        raise typer.Exit(1)
 
 
 def check(

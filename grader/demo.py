@@ -19,7 +19,7 @@ from assignments.usecases import HandedOut
 from assignments.workbook import fill_workbook
 from grader.gradebook import Gradebook
 from grader.grading import FEEDBACK, Graded, Wanted, grade_files
-from grader.usecases import hand_out_to
+from grader.handing_out import hand_out_to
 from vml_course.errors import InputError
 from vml_course.kinetics.lines import solve_by_lines
 from vml_course.model.track import Seed
@@ -111,9 +111,9 @@ def run_demo(folder: Path, students: int, workers: int, say: Say) -> DemoResult:
     course = _sample_course(folder, students)
     title = "simulate, render, and solve before release"
     say(title, 0.0)
-    handed, _ = hand_out_to(
-        course, ASSIGNMENT, (), workers=workers, progress=lambda done, total: say(title, 0.5 * done / total)
-    )
+    handed = hand_out_to(
+        course, ASSIGNMENT, workers=workers, progress=lambda done, total: say(title, 0.5 * done / total)
+    ).results
     assignment, returned = load_assignment(ASSIGNMENT), []
     for number, item in enumerate(handed):
         if item.status == "failed":
@@ -150,12 +150,12 @@ def _hand_in(course: Course, assignment: Assignment, item: HandedOut, persona: P
         key = gradebook.key_of(assignment.id, item.student)
     desk = course.folder / "students" / item.student
     desk.mkdir(parents=True)
-    tracked = _measure(item.folder, desk, key)
+    tracked = _measure(Path(item.folder), desk, key)
     answers = persona.spoil(_right_answers(tracked, key), key.truth["px_per_m"])
     units = {question.id: question.unit for question in assignment.questions}
     returned = course.folder / "returned" / f"{item.student}.xlsx"
     returned.parent.mkdir(exist_ok=True)
-    fill_workbook(item.folder / WORKBOOK, returned, answers, units, _table(tracked, assignment.points))
+    fill_workbook(Path(item.folder) / WORKBOOK, returned, answers, units, _table(tracked, assignment.points))
     return returned
 
 

@@ -45,6 +45,11 @@ __all__ = ["Gradebook", "Row", "Student"]
 FILE = "gradebook.db"
 
 
+def is_begun(course: Course) -> bool:
+    """Tell whether a course has a gradebook already; looking makes none."""
+    return bool(course.gradebook_url) or (course.folder / FILE).is_file()
+
+
 class Gradebook:
     """An open gradebook; use it in a `with` block."""
 

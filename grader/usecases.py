@@ -1,18 +1,16 @@
-"""What the grader does for people beside grading: settle a review, give more time, hand variants out."""
+"""What the grader does for people beside grading: settle a review, give more time."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import asdict
 
 from assignments.course import Course, add_extension
 from assignments.load import load_assignment
 from assignments.terms import Extension
-from assignments.usecases import HandedOut, hand_out
 from grader.adjust import Adjustment
-from grader.gradebook import Gradebook, Row, Student
+from grader.gradebook import Gradebook, Row
 from grader.grading import write_class_page
-from vml_course.errors import InputError
 
 Progress = Callable[[int, int], None]
 
@@ -49,42 +47,3 @@ def extend_student(course: Course, given: Extension) -> list[str]:
         f"{calendar.terms_of(name, given.student).attempts or 'any number of'} attempts"
         for name in named
     ] or [f"{given.student}: extended; no assignment has a date yet."]
-
-
-# ---------------------------------------------------------------- hand out
-
-
-def hand_out_to(
-    course: Course, assignment_id: str, pids: Sequence[str], *, workers: int = 1, progress: Progress | None = None
-) -> tuple[list[HandedOut], dict[str, Student]]:
-    """Hand an assignment to the students of the roster, or to those named by pseudonym.
-
-    Returns
-    -------
-    handed : list of HandedOut
-    students : dict of str to Student
-        By pseudonym.
-
-    Raises
-    ------
-    NoKeyError, FileMissingError, RosterError
-        When a pseudonym is unknown, or there is no class list.
-    """
-    assignment = load_assignment(assignment_id)
-    with Gradebook.open(course) as gradebook:
-        gradebook.students_from_roster(course.roster)
-        students = {student.pid: student for student in gradebook.students()}
-        for pid in pids:
-            if pid not in students:
-                raise InputError("student", "a pseudonym of this course", repr(pid), "See: vml gradebook show.")
-        chosen = list(pids) or list(students)
-        handed = hand_out(
-            course,
-            assignment,
-            chosen,
-            keep=gradebook.keep_key,
-            is_kept=lambda pid: gradebook.has_key(assignment_id, pid),
-            workers=workers,
-            progress=progress,
-        )
-    return handed, students

@@ -1,8 +1,9 @@
-"""Pictures with known motion, for every room that looks at pictures."""
+"""Pictures with known motion, for every room that looks at pictures; an S3 server for those that keep files."""
 
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -89,3 +90,32 @@ def rotated():
 @pytest.fixture(scope="session")
 def camera_of():
     return camera
+
+
+@pytest.fixture(scope="session")
+def bucket() -> Iterator[str]:
+    """Run an S3 server of its own on loopback and return the URL of a bucket."""
+    import s3fs  # noqa: PLC0415 - most tests need no server
+    from moto.server import ThreadedMotoServer  # noqa: PLC0415
+
+    server = ThreadedMotoServer(ip_address="127.0.0.1", port=0, verbose=False)
+    server.start()
+    host, port = server.get_host_and_port()
+    told = {
+        "AWS_ENDPOINT_URL": f"http://{host}:{port}",
+        "AWS_ACCESS_KEY_ID": "nobody",
+        "AWS_SECRET_ACCESS_KEY": "nothing",
+        "AWS_DEFAULT_REGION": "us-east-1",
+    }
+    before = {name: os.environ.get(name) for name in told}
+    os.environ.update(told)
+    s3fs.S3FileSystem.clear_instance_cache()
+    s3fs.S3FileSystem().mkdir("course-bucket")
+    yield "s3://course-bucket"
+    s3fs.S3FileSystem.clear_instance_cache()
+    server.stop()
+    for name, value in before.items():
+        if value is None:
+            os.environ.pop(name)
+        else:
+            os.environ[name] = value

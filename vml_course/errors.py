@@ -6,11 +6,22 @@ facts as attributes, so that a page or a JSON form can show them without parsing
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from typing import Any
 
 
 class VmlError(Exception):
     """Something the user can put right; `vml` prints it as one line and ends with exit code 2."""
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Travel between processes as words and facts; the constructor, which takes other arguments, is not asked."""
+        return _arrived, (type(self), self.args, self.__dict__)
+
+
+def _arrived(kind: type[VmlError], words: tuple[Any, ...], facts: Mapping[str, Any]) -> VmlError:
+    error = kind.__new__(kind, *words)
+    error.__dict__.update(facts)
+    return error
 
 
 class InputError(VmlError):
@@ -149,3 +160,22 @@ class LengthMismatchError(InputError):
         self.found_m, self.found_sd_m, self.given_m = found_m, found_sd_m, given_m
         found = f"{found_m:.4f} ± {max(found_sd_m, 1e-4):.4f} m, the radius of the striker's path"
         super().__init__(name, found, f"{given_m:g} m", "Check the length, the scale and which point was tracked.")
+
+
+# ---------------------------------------------------------------- workers
+
+
+class PackageMissingError(InputError):
+    """An optional part was asked for whose package is not installed."""
+
+    def __init__(self, name: str, package: str, install: str) -> None:
+        self.package = package
+        super().__init__(name, f"the package {package}", "none", f"Install it with: {install}")
+
+
+class WorkerDiedError(VmlError):
+    """Every process that was given a task died of it."""
+
+    def __init__(self, tries: int) -> None:
+        self.tries = tries
+        super().__init__(f"worker: its process died, {tries} times of {tries}; out of memory, or ended from outside.")

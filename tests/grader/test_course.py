@@ -16,10 +16,8 @@ import pytest
 
 from assignments.course import Course, new_course
 from assignments.load import load_assignment
-from assignments.usecases import HandedOut
 from assignments.variants import signature_of
 from assignments.workbook import fill_workbook, write_workbook
-from grader import usecases
 from grader.errors import NoKeyError, RosterError, UnknownVariantError
 from grader.feedback import Report, class_page, feedback_page, verdict
 from grader.form import check_workbook
@@ -28,9 +26,8 @@ from grader.gradebook import Gradebook, Row, Student
 from grader.grading import Wanted, grade_files
 from grader.model import Finding, Outcome
 from grader.roster import read_roster
-from grader.usecases import hand_out_to
 from vml_course.cli import run
-from vml_course.errors import FileMissingError, InputError
+from vml_course.errors import FileMissingError
 
 TOTAL = load_assignment("soccer-kick").total_points
 FOR_E = load_assignment("soccer-kick").question("e").points
@@ -331,7 +328,7 @@ def test_stopping_a_long_run_says_how_to_go_on(room, monkeypatch, capsys):
     def stopped(*_, **__):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("grader.usecases.hand_out_to", stopped)
+    monkeypatch.setattr("grader.handing_out.hand_out_to", stopped)
     assert run(["handout", "soccer-kick", "--course", str(room.course.folder)]) == 130
     assert "run the same command again to continue" in capsys.readouterr().err
 
@@ -435,23 +432,6 @@ def test_a_check_sees_form_only(room):
     assert unread == {"v_b2": "empty", "px_per_m": "unclear", "omega1": "unclear"}
     assert answers["I"].says == "1,234, read as 1.234 kg m^2"
     assert not result.is_complete
-
-
-def test_hand_out_goes_to_the_roster_or_to_one(room, monkeypatch):
-    asked = []
-
-    def fake(course, assignment, students, keep, *, is_kept, workers, progress):
-        asked.append((list(students), is_kept(room.students[0].pid)))
-        return [HandedOut(s, course.folder / s, "made") for s in students]
-
-    monkeypatch.setattr(usecases, "hand_out", fake)
-    handed, people = hand_out_to(room.course, "soccer-kick", [])
-    assert [item.student for item in handed] == [student.pid for student in room.students] == list(people)
-    hand_out_to(room.course, "soccer-kick", [room.students[2].pid])
-    assert asked[1] == ([room.students[2].pid], True)
-    with pytest.raises(InputError, match="a pseudonym of this course"):
-        hand_out_to(room.course, "soccer-kick", ["nobody"])
-    assert run(["handout", "soccer-kick", "--course", str(room.course.folder)]) == 0
 
 
 # ---------------------------------------------------------------- commands

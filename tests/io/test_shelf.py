@@ -4,41 +4,12 @@ from __future__ import annotations
 
 import os
 import stat
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-import s3fs
-from moto.server import ThreadedMotoServer
 
 from vml_course.errors import FileMissingError, InputError
 from vml_course.io.shelf import FolderShelf, Shelf, open_shelf
-
-
-@pytest.fixture(scope="module")
-def bucket() -> Iterator[str]:
-    """Run an S3 server of its own on loopback and return the URL of a bucket."""
-    server = ThreadedMotoServer(ip_address="127.0.0.1", port=0, verbose=False)
-    server.start()
-    host, port = server.get_host_and_port()
-    told = {
-        "AWS_ENDPOINT_URL": f"http://{host}:{port}",
-        "AWS_ACCESS_KEY_ID": "nobody",
-        "AWS_SECRET_ACCESS_KEY": "nothing",
-        "AWS_DEFAULT_REGION": "us-east-1",
-    }
-    before = {name: os.environ.get(name) for name in told}
-    os.environ.update(told)
-    s3fs.S3FileSystem.clear_instance_cache()
-    s3fs.S3FileSystem().mkdir("course-bucket")
-    yield "s3://course-bucket"
-    s3fs.S3FileSystem.clear_instance_cache()
-    server.stop()
-    for name, value in before.items():
-        if value is None:
-            os.environ.pop(name)
-        else:
-            os.environ[name] = value
 
 
 @pytest.fixture(params=["folder", "file", "memory", "s3"])
@@ -48,13 +19,6 @@ def shelf(request: pytest.FixtureRequest, tmp_path: Path) -> Shelf:
     return open_shelf(
         {"folder": tmp_path / "s", "file": f"file://{tmp_path}/s", "memory": f"memory://{tmp_path.name}"}[request.param]
     )
-
-
-def _made(folder: Path, **files: str) -> Path:
-    folder.mkdir(parents=True)
-    for name, text in files.items():
-        (folder / f"{name}.txt").write_text(text, encoding="utf-8")
-    return folder
 
 
 def test_what_is_written_is_read(shelf: Shelf) -> None:
@@ -74,12 +38,32 @@ def test_what_is_not_there_is_said(shelf: Shelf) -> None:
         shelf.read("none.txt")
 
 
-def test_a_folder_takes_the_place_of_an_older_one(shelf: Shelf, tmp_path: Path) -> None:
-    shelf.put_folder(_made(tmp_path / "one", old="1", same="1"), "handouts/x", last="same.txt")
-    shelf.put_folder(_made(tmp_path / "two", same="2", new="2"), "handouts/x", last="same.txt")
+def test_a_folder_takes_the_place_of_an_older_one(shelf: Shelf) -> None:
+    shelf.put_files("handouts/x", {"old.txt": b"1", "same.txt": b"1"}, last="same.txt")
+    shelf.put_files("handouts/x", {"same.txt": b"2", "new.txt": b"2"}, last="same.txt")
     assert shelf.names("handouts/x") == {"same.txt", "new.txt"}
     assert shelf.read("handouts/x/same.txt") == b"2"
     assert shelf.names("handouts") == {"x"}
+
+
+def test_a_file_of_this_machine_is_sent_and_read_here_and_there(shelf: Shelf, tmp_path: Path) -> None:
+    for content in (b"0123456789", b"abcdefghij" * 100_000):
+        made = tmp_path / "made.bin"
+        made.write_bytes(content)
+        shelf.send(made, "bundles/b.bin")
+        with shelf.open("bundles/b.bin") as file:
+            file.seek(7)
+            assert file.read(2) == content[7:9]
+    with pytest.raises(FileMissingError, match="expected a file that can be read"):
+        shelf.open("none.bin")
+
+
+def test_what_a_killed_run_left_beside_is_gone_with_the_next(tmp_path: Path) -> None:
+    (tmp_path / "h" / ".x.new").mkdir(parents=True)
+    (tmp_path / "h" / ".x.new" / "half.txt").write_bytes(b"1")
+    open_shelf(tmp_path).put_files("h/x", {"a.txt": b"1"}, last="a.txt")
+    assert open_shelf(tmp_path).names("h") == {"x"}
+    assert open_shelf(tmp_path).names("h/x") == {"a.txt"}
 
 
 @pytest.mark.parametrize("name", ["/etc/passwd", "../x", "a/../../x", "a//b", "a\\b", "./a"])
@@ -118,5 +102,5 @@ def test_the_last_file_of_a_folder_is_sent_last(tmp_path: Path, monkeypatch) -> 
     shelf = open_shelf(f"memory://{tmp_path.name}")
     sent = []
     monkeypatch.setattr(shelf, "_send", lambda path, _data: sent.append(path.rpartition("/")[2]))
-    shelf.put_folder(_made(tmp_path / "one", a="1", b="1", c="1"), "x", last="a.txt")
+    shelf.put_files("x", {"a.txt": b"1", "b.txt": b"1", "c.txt": b"1"}, last="a.txt")
     assert sent == ["b.txt", "c.txt", "a.txt"]

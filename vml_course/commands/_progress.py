@@ -34,3 +34,42 @@ def stages() -> Iterator[Callable[[str, float], None]]:
     finally:
         if started:  # a bar that never began must not leave an empty line before an error
             bar.stop()
+
+
+@contextmanager
+def counted(title: str, things: str) -> Iterator[Callable[[int, int], None]]:
+    """Give a callback `(done, total)` that draws a bar with how many are done, how many a minute, and the time left.
+
+    What was done before the first call is taken as done, not as speed.
+    """
+    from rich.console import Console
+    from rich.progress import (
+        BarColumn,
+        MofNCompleteColumn,
+        Progress,
+        ProgressColumn,
+        Task,
+        TextColumn,
+        TimeRemainingColumn,
+    )
+    from rich.text import Text
+
+    class Rate(ProgressColumn):
+        """Things a minute, of late."""
+
+        def render(self, task: Task) -> Text:
+            speed = task.finished_speed or task.speed
+            return Text(f"{60 * speed:.3g} {things}/min" if speed else "")
+
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), Rate(), TimeRemainingColumn())
+    with Progress(*columns, console=Console(stderr=True)) as bar:
+        task = bar.add_task(title, total=None, visible=False)
+
+        def show(done: int, total: int) -> None:
+            is_first = bar.tasks[0].total is None
+            if is_first:
+                bar.reset(task, total=total, completed=done, visible=done < total)
+            else:
+                bar.update(task, completed=done)
+
+        yield show

@@ -7,8 +7,9 @@ it is complete, an object store shows an object when it was sent to its end.
 from __future__ import annotations
 
 import shutil
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any, BinaryIO, Protocol, cast
 from urllib.parse import urlsplit
 
 from fsspec.core import url_to_fs  # type: ignore[import-untyped]
@@ -40,8 +41,16 @@ class Shelf(Protocol):
         """Return the names of the files and folders in a folder; none when there is no such folder."""
         ...
 
-    def put_folder(self, made: Path, name: str, last: str = "") -> None:
-        """Put a folder of this machine in place of `name`; the file called `last` appears after all others."""
+    def put_files(self, name: str, files: Mapping[str, bytes], last: str) -> None:
+        """Put a folder with these files in place of `name`; the one called `last` appears after all others."""
+        ...
+
+    def send(self, made: Path, name: str) -> None:
+        """Put a file of this machine in place of `name`; it is gone from where it was, or may be."""
+        ...
+
+    def open(self, name: str) -> BinaryIO:
+        """Open a file for reading here and there; FileMissingError when there is none."""
         ...
 
 
@@ -102,19 +111,34 @@ class FolderShelf:
         path = self._path(folder)
         return frozenset(entry.name for entry in path.iterdir()) if path.is_dir() else frozenset()
 
-    def put_folder(self, made: Path, name: str, last: str = "") -> None:  # noqa: ARG002 - all appears at once
-        """Put a folder in place of `name` by renaming it; an older one is removed."""
+    def put_files(self, name: str, files: Mapping[str, bytes], last: str) -> None:  # noqa: ARG002 - all appear at once
+        """Put a folder in place of `name` by renaming it; what a killed run left beside goes first."""
+        path = self._path(name)
+        made, older = path.with_name(f".{path.name}.new"), path.with_name(f".{path.name}.old")
+        for left in (made, older):
+            shutil.rmtree(left, ignore_errors=True)
+        made.mkdir(parents=True)
+        for file, data in files.items():
+            (made / _checked(file)).write_bytes(data)
+        if path.exists():
+            path.replace(older)
+        made.replace(path)
+        shutil.rmtree(older, ignore_errors=True)
+
+    def send(self, made: Path, name: str) -> None:
+        """Move a file in place of `name`."""
         path = self._path(name)
         path.parent.mkdir(parents=True, exist_ok=True)
-        if made.stat().st_dev != path.parent.stat().st_dev:
-            made = _copied_beside(made, path)
-        if path.exists():
-            aside = made.with_name(f"{made.name}-older")
-            path.replace(aside)
-            made.replace(path)
-            shutil.rmtree(aside, ignore_errors=True)
-        else:
-            made.replace(path)
+        with replacing(path) as temporary:
+            shutil.move(made, temporary)
+
+    def open(self, name: str) -> BinaryIO:
+        """Open a file for reading here and there."""
+        path = self._path(name)
+        try:
+            return path.open("rb")
+        except OSError as error:
+            raise FileMissingError(str(path), "a file that can be read", error.strerror or "none") from error
 
     def _path(self, name: str) -> Path:
         return self.folder / _checked(name) if name else self.folder
@@ -156,14 +180,27 @@ class StoreShelf:
             raise FileMissingError(self.place(folder), "a place that can be listed", _reason(error)) from error
         return frozenset(str(path).rstrip("/").rpartition("/")[2] for path in found)
 
-    def put_folder(self, made: Path, name: str, last: str = "") -> None:
-        """Send every file of a folder, `last` after the others; a file of an older one that has no successor goes."""
-        files = sorted((path for path in made.rglob("*") if path.is_file()), key=lambda path: path.name == last)
+    def put_files(self, name: str, files: Mapping[str, bytes], last: str) -> None:
+        """Send every file, `last` after the others; what an older folder had beside goes."""
         older = self.names(name)
-        for path in files:
-            self._send(f"{self._path(name)}/{path.relative_to(made).as_posix()}", path.read_bytes())
-        for gone in older - {path.relative_to(made).parts[0] for path in files}:
+        for file in sorted(files, key=lambda file: file == last):
+            self._send(f"{self._path(name)}/{_checked(file)}", files[file])
+        for gone in older - set(files):
             self._files.rm(f"{self._path(name)}/{gone}", recursive=True)
+
+    def send(self, made: Path, name: str) -> None:
+        """Send a file of this machine, in parts where it is large."""
+        try:
+            self._files.put_file(str(made), self._path(name))
+        except OSError as error:
+            raise FileMissingError(self.place(name), "a place to write to", _reason(error)) from error
+
+    def open(self, name: str) -> BinaryIO:
+        """Open an object; only what is read of it is fetched."""
+        try:
+            return cast("BinaryIO", self._files.open(self._path(name), "rb"))
+        except OSError as error:
+            raise FileMissingError(self.place(name), "a file that can be read", _reason(error)) from error
 
     def _send(self, path: str, data: bytes) -> None:
         try:
@@ -180,13 +217,6 @@ def _checked(name: str) -> str:
     if name.startswith("/") or "\\" in name or any(part in ("", ".", "..") for part in name.split("/")):
         raise InputError("name", "a relative name inside the course", repr(name))
     return name
-
-
-def _copied_beside(made: Path, path: Path) -> Path:
-    beside = path.with_name(f".{path.name}-arriving")
-    shutil.rmtree(beside, ignore_errors=True)
-    shutil.copytree(made, beside)
-    return beside
 
 
 def _reason(error: BaseException) -> str:
