@@ -36,6 +36,7 @@ from vml_course.usecases.make_video import MadeVideo
 
 KICK = load_assignment("soccer-kick")
 SECRET = bytes(range(32))
+SHARP = itertools.repeat(0.001)  # a standard deviation that nobody minds
 Keys = dict[str, tuple[Variant, AnswerKey]]
 
 
@@ -258,7 +259,7 @@ def test_a_name_that_cannot_be_a_folder_is_refused_before_anything_is_made(made:
 
 def test_a_variant_that_cannot_be_measured_is_drawn_again(monkeypatch: pytest.MonkeyPatch) -> None:
     """The first two videos are measured 3 % off in I: inside the student's 5 %, beyond half of it."""
-    _measure_inertia_by(monkeypatch, iter([1.03, 0.97, 1.0]))
+    _measure_inertia_by(monkeypatch, iter([1.03, 0.97, 1.0]), SHARP)
     released = assignments.release.release(_order())
     assert len(released.refused) == 2
     assert "I: expected to be measured within 2.50%, got 3.00%" in released.refused[0]
@@ -268,9 +269,16 @@ def test_a_variant_that_cannot_be_measured_is_drawn_again(monkeypatch: pytest.Mo
 def test_a_student_for_whom_nothing_can_be_measured_fails_with_the_last_reasons(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    _measure_inertia_by(monkeypatch, itertools.repeat(float("nan")))
+    _measure_inertia_by(monkeypatch, itertools.repeat(float("nan")), SHARP)
     with pytest.raises(NoVariantError, match="I: expected to be measured"):
         assignments.release.release(_order())
+
+
+def test_a_video_in_which_the_reference_is_unsure_is_not_released(monkeypatch: pytest.MonkeyPatch) -> None:
+    _measure_inertia_by(monkeypatch, itertools.repeat(1.0), iter([0.2, 0.001]))
+    refused = assignments.release.release(_order()).refused
+    assert len(refused) == 1
+    assert "I: expected to be known to a standard deviation of at most" in refused[0]
 
 
 def test_a_measurement_that_is_off_carries_its_figures() -> None:
@@ -284,12 +292,18 @@ def test_an_order_does_not_show_the_secret() -> None:
     assert str(SECRET) not in repr(_order())
 
 
-def _measure_inertia_by(monkeypatch: pytest.MonkeyPatch, factors: Iterator[float]) -> None:
-    """Film without pictures, and find the inertia off by these factors, one after the other."""
+def _measure_inertia_by(monkeypatch: pytest.MonkeyPatch, factors: Iterator[float], sds: Iterator[float]) -> None:
+    """Film without pictures, and find the inertia off by these factors and as unsure, one after the other."""
+
+    def solved(_track: object, truth: Truth, *_: object) -> ImpactSolution:
+        inertia = Estimate(truth.met.inertia_kg_m2 * next(factors), next(sds))
+        estimates = {"e": Estimate(truth.met.restitution, 0.001), "I": inertia}
+        return ImpactSolution("fixed-pivot", "joint", estimates, 0.0, truth.met.frame_before)
+
     monkeypatch.setattr(assignments.release, "film", _without_pictures)
     monkeypatch.setattr(assignments.release, "fair_variant", _drawn)
     monkeypatch.setattr(assignments.release, "track_points", lambda *_: None)
-    monkeypatch.setattr(assignments.release, "solve", lambda _track, truth, *_: _measured(truth, next(factors)))
+    monkeypatch.setattr(assignments.release, "solve", solved)
     monkeypatch.setattr(assignments.release, "_write", lambda *_: {})
 
 
@@ -301,11 +315,6 @@ def _without_pictures(variant: Variant, folder: Path) -> MadeVideo:
     folder.mkdir(exist_ok=True)
     (folder / "video.mp4").write_bytes(b"a video")
     return MadeVideo(folder / "video.mp4", foresee(variant))
-
-
-def _measured(truth: Truth, factor: float) -> ImpactSolution:
-    estimates = {"e": Estimate(truth.met.restitution, 0.001), "I": Estimate(truth.met.inertia_kg_m2 * factor, 0.01)}
-    return ImpactSolution("fixed-pivot", "joint", estimates, 0.0, truth.met.frame_before)
 
 
 def _order() -> Order:
