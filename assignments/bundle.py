@@ -1,4 +1,4 @@
-"""What learning platforms take: a zip for each student, and one bundle of all.
+"""What learning platforms take: zips that are the same bytes for the same files.
 
 Only stored, never compressed: videos do not shrink, and the same content is the same bytes with any compressor.
 Time stamps are fixed. Names are pseudonyms; whoever knows a platform's number for a student may add it.
@@ -8,16 +8,10 @@ from __future__ import annotations
 
 import io
 import zipfile
-from collections.abc import Iterable, Iterator, Mapping
-from pathlib import Path
+from collections.abc import Mapping
 
-from vml_course.io.files import replacing
-
-BUNDLE = "bundle-moodle.zip"
 _ZIP_EPOCH = (1980, 1, 1, 0, 0, 0)
 _READABLE = 0o644 << 16
-
-Contents = list[tuple[str, int, int]]
 
 
 def zip_bytes(files: Mapping[str, bytes]) -> bytes:
@@ -44,41 +38,10 @@ def moodle_folder(pid: str, participant: str) -> str:
     return f"{pid.replace('_', '-')}_{participant}_assignsubmission_file"
 
 
-def write_bundle(path: Path, zips: Mapping[str, Path]) -> bool:
-    """Write one zip of all students' files, a folder for each; return whether anything changed.
-
-    Parameters
-    ----------
-    path : Path
-    zips : mapping of str to Path
-        Each student's zip, by the name of the folder in the bundle.
-    """
-    if path.is_file() and _contents(path) == [line for name, zip_ in _sorted(zips) for line in _contents(zip_, name)]:
-        return False
-    with replacing(path) as temporary, zipfile.ZipFile(temporary, "w", zipfile.ZIP_STORED) as bundle:
-        for name, data in _members(zips):
-            bundle.writestr(_member(name), data)
-    return True
-
-
-def _members(zips: Mapping[str, Path]) -> Iterator[tuple[str, bytes]]:
-    for folder, path in _sorted(zips):
-        with zipfile.ZipFile(path) as archive:
-            yield from ((f"{folder}/{member.filename}", archive.read(member)) for member in archive.infolist())
-
-
-def _sorted(zips: Mapping[str, Path]) -> Iterable[tuple[str, Path]]:
-    return sorted(zips.items())
-
-
-def _contents(path: Path, folder: str = "") -> Contents:
-    """Return name, length and checksum of each member; short to read, whatever the size."""
-    try:
-        with zipfile.ZipFile(path) as archive:
-            prefix = f"{folder}/" if folder else ""
-            return [(prefix + m.filename, m.file_size, m.CRC) for m in archive.infolist()]
-    except zipfile.BadZipFile:
-        return []
+def unzipped(content: bytes) -> dict[str, bytes]:
+    """Return the files of a zip that `zip_bytes` made."""
+    with zipfile.ZipFile(io.BytesIO(content)) as archive:
+        return {name: archive.read(name) for name in archive.namelist()}
 
 
 def _member(name: str) -> zipfile.ZipInfo:

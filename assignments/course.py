@@ -84,7 +84,7 @@ def new_course(folder: Path, title: str = "") -> Course:
     return open_course(folder)
 
 
-def open_course(folder: Path) -> Course:
+def open_course(folder: str | Path) -> Course:
     """Open a course folder.
 
     Raises

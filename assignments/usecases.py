@@ -1,12 +1,12 @@
 """Hand out an assignment: a folder and a zip for every student, a key for the instructor.
 
-A student's folder is made under a temporary name and takes its own only when it is complete and its key is
-kept. So a run that was killed goes on where it stopped, and a second run changes nothing.
+A student's key is kept first, then the folder takes its name, then the zip: it says that the student has everything.
+So a run that was killed goes on where it stopped, and a second run changes nothing.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Future
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -15,14 +15,13 @@ from typing import Literal
 
 from assignments.costs import Cost, cost_of, keep_cost
 from assignments.course import Course
+from assignments.handouts import Handouts, check_pseudonyms
 from assignments.model import AnswerKey, Assignment, Variant
 from assignments.release import Order, Release, release
-from assignments.shelf import Shelf, check_pseudonyms, is_complete
 from assignments.workplace import working_folder
 from vml_course.errors import VmlError
 from vml_course.executors import each_done, open_executor
-
-__all__ = ["HandedOut", "cost_file", "hand_out", "is_complete", "look_through"]
+from vml_course.io.shelf import FolderShelf
 
 Keep = Callable[[Variant, AnswerKey], None]
 IsKept = Callable[[str], bool]
@@ -37,7 +36,8 @@ class HandedOut:
     ----------
     student : str
         The pseudonym.
-    folder : Path
+    place : str
+        Where the student's folder lies: a path, or a URL.
     status : str
         "made", "already" (complete from an earlier run), "failed", or "missing" (nobody tried).
     redraws : int
@@ -49,7 +49,7 @@ class HandedOut:
     """
 
     student: str
-    folder: Path
+    place: str
     status: Literal["made", "already", "failed", "missing"]
     redraws: int = 0
     refused: tuple[str, ...] = ()
@@ -68,8 +68,8 @@ def look_through(
     students : sequence of str
         Pseudonyms.
     is_kept : callable, optional
-        Whether a student's key is kept already; a complete folder without its key is made anew. Without it, a
-        complete folder is trusted.
+        Whether a student's key is kept already; files without their key are made anew. Without it, files are
+        trusted.
 
     Raises
     ------
@@ -77,12 +77,13 @@ def look_through(
         When a pseudonym cannot name a folder.
     """
     check_pseudonyms(students)
-    shelf = Shelf(course.handouts(assignment.id))
+    handouts = handouts_of(course, assignment)
+    complete = handouts.complete()
 
     def has(student: str) -> bool:
-        return shelf.holds(student) and (is_kept is None or is_kept(student))
+        return student in complete and (is_kept is None or is_kept(student))
 
-    return [HandedOut(s, shelf.folder(s), "already" if has(s) else "missing") for s in students]
+    return [HandedOut(s, handouts.place(s), "already" if has(s) else "missing") for s in students]
 
 
 def hand_out(  # noqa: PLR0913 - four things to hand out, and how
@@ -94,7 +95,7 @@ def hand_out(  # noqa: PLR0913 - four things to hand out, and how
     is_kept: IsKept | None = None,
     workers: int = 1,
     cluster: str = "",
-    due: str = "",
+    due: Mapping[str, str] | None = None,
     progress: Progress | None = None,
 ) -> list[HandedOut]:
     """Make video, workbook and handout for every student, and keep the keys.
@@ -109,8 +110,8 @@ def hand_out(  # noqa: PLR0913 - four things to hand out, and how
         Processes that work at the same time.
     cluster : str
         Address of a dask scheduler that does the work instead; `local:N` starts one.
-    due : str
-        Date that the handout shows.
+    due : mapping of str to str, optional
+        Date that the handout shows, by pseudonym.
     progress : callable, optional
         Told how many students are done, of how many.
 
@@ -126,20 +127,23 @@ def hand_out(  # noqa: PLR0913 - four things to hand out, and how
     """
     results = {found.student: found for found in look_through(course, assignment, students, is_kept)}
     missing = [student for student in results if results[student].status == "missing"]
-    shelf, tell = Shelf(course.handouts(assignment.id)), progress or (lambda _done, _total: None)
-    for student in results.keys() - set(missing):
-        shelf.mend(student)
+    handouts, tell = handouts_of(course, assignment), progress or (lambda _done, _total: None)
     tell(len(results) - len(missing), len(results))
     if missing:
-        shelf.home.mkdir(parents=True, exist_ok=True)
-        orders = (Order(assignment, course.secret, student, due) for student in missing)
+        handouts.open_bundle(missing)
+        orders = (Order(assignment, course.secret, student, (due or {}).get(student, "")) for student in missing)
         with working_folder(course.folder) as work, open_executor(workers, cluster) as executor:
-            desk = _Desk(shelf, work, keep, log_file(course, assignment))
+            desk = _Desk(handouts, work, keep, log_file(course, assignment))
             with desk.keeping_cost(cost_file(course, assignment)):
                 for done, (order, future) in enumerate(each_done(executor, release, orders), start=1):
                     results[order.student] = desk.finish(order.student, future)
                     tell(len(results) - len(missing) + done, len(results))
     return [results[student] for student in students]
+
+
+def handouts_of(course: Course, assignment: Assignment) -> Handouts:
+    """Return an assignment's handouts on the course's shelf."""
+    return Handouts(FolderShelf(course.folder), assignment.id)
 
 
 def cost_file(course: Course, assignment: Assignment) -> Path:
@@ -156,26 +160,26 @@ def log_file(course: Course, assignment: Assignment) -> Path:
 class _Desk:
     """Where what was made is taken in, one student after the other."""
 
-    shelf: Shelf
+    handouts: Handouts
     work: Path
     keep: Keep
     log: Path
     cost: Cost = field(default_factory=Cost)
 
     def finish(self, student: str, future: Future[Release]) -> HandedOut:
-        """Keep the key, then give the folder its name; whatever goes wrong concerns this student only."""
-        folder = self.shelf.folder(student)
+        """Keep the key, then lay the files out; whatever goes wrong concerns this student only."""
+        place = self.handouts.place(student)
         try:
             released = future.result()
             self.keep(released.variant, released.key)
-            self.shelf.put(student, released.files, self.work)
+            self.handouts.put(student, released.files, self.work)
         except VmlError as error:
-            return HandedOut(student, folder, "failed", reason=str(error))
+            return HandedOut(student, place, "failed", reason=str(error))
         except Exception as error:  # noqa: BLE001 - one student's failure stops nobody else
-            return HandedOut(student, folder, "failed", reason=f"{type(error).__name__}: {error}")
+            return HandedOut(student, place, "failed", reason=f"{type(error).__name__}: {error}")
         self.cost += cost_of(released)
         self._log(student, released.refused)
-        return HandedOut(student, folder, "made", released.variant.redraws, released.refused)
+        return HandedOut(student, place, "made", released.variant.redraws, released.refused)
 
     @contextmanager
     def keeping_cost(self, path: Path) -> Iterator[None]:
@@ -184,10 +188,12 @@ class _Desk:
             yield
         finally:
             if self.cost.students:
+                path.parent.mkdir(exist_ok=True)
                 keep_cost(path, self.cost)
 
     def _log(self, student: str, refused: Iterable[str]) -> None:
         lines = "".join(f"{student} {why}\n" for why in refused)
         if lines:
+            self.log.parent.mkdir(exist_ok=True)
             with self.log.open("a", encoding="utf-8", newline="\n") as file:
                 file.write(lines)

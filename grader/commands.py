@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from grader._command_parts import CourseOption, JsonOption, print_json, resumable
+from grader._options import CourseOption, JsonOption, print_json, resumable
 from grader.handout_commands import handout
 from vml_course.commands._progress import progress, stages
 

@@ -15,8 +15,7 @@ from assignments.course import Course
 from assignments.load import load_assignment
 from assignments.model import Assignment
 from assignments.plan import Plan, make_plan, sample_cost
-from assignments.shelf import Shelf
-from assignments.usecases import HandedOut, cost_file, hand_out, look_through
+from assignments.usecases import HandedOut, cost_file, hand_out, handouts_of, look_through
 from grader.gradebook import FILE, Gradebook, Student
 from grader.roster import Enrolled, read_roster
 from vml_course.errors import InputError
@@ -35,15 +34,15 @@ class Handed:
     results : tuple of HandedOut
     students : mapping of str to Student
         By pseudonym.
-    bundle : Path or None
-        The zip for the learning platform; None when there is nothing to hand out.
+    bundle : tuple of str
+        Where the zips for the learning platform lie; none when there is nothing to hand out.
     table : Path
         Whose pseudonym is whose.
     """
 
     results: tuple[HandedOut, ...]
     students: Mapping[str, Student]
-    bundle: Path | None
+    bundle: tuple[str, ...]
     table: Path
 
     @property
@@ -68,7 +67,7 @@ def hand_out_to(  # noqa: PLR0913 - to whom, and by whom
     *,
     workers: int = 1,
     cluster: str = "",
-    due: str = "",
+    due: Mapping[str, str] | None = None,
     participants: Mapping[str, str] | None = None,
     progress: Progress | None = None,
 ) -> Handed:
@@ -106,8 +105,8 @@ def hand_out_to(  # noqa: PLR0913 - to whom, and by whom
         )
     numbers = participants or {}
     folders = {pid: moodle_folder(pid, numbers[pid]) if pid in numbers else pid for pid in students}
-    bundle = Shelf(course.handouts(assignment.id)).bundle(folders)
-    return Handed(tuple(results), students, bundle, _write_table(course, assignment, students.values()))
+    bundle = handouts_of(course, assignment).put_bundle(folders)
+    return Handed(tuple(results), students, tuple(bundle), _write_table(course, assignment, students.values()))
 
 
 def expect(course: Course, assignment_id: str, pids: Sequence[str] = ()) -> list[Expected]:

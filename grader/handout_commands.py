@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from grader._command_parts import JsonOption, print_json, resumable
+from grader._options import JsonOption, print_json, resumable
 from vml_course.commands._progress import counted, progress
 from vml_course.errors import InputError
 
@@ -25,7 +25,9 @@ if TYPE_CHECKING:
 
 def handout(
     assignment: Annotated[str, typer.Argument(help="Name of the assignment, such as soccer-kick.")],
-    course: Annotated[Path | None, typer.Option("--course", metavar="DIR", help="The course folder.")] = None,
+    course: Annotated[
+        str, typer.Option("--course", metavar="DIR", help="The course: a folder, or the URL of one in an object store.")
+    ] = "",
     student: Annotated[
         list[str] | None, typer.Option("--student", metavar="PID", help="Only this pseudonym. Repeatable.")
     ] = None,
@@ -55,7 +57,7 @@ def handout(
     if practice:
         _practise(assignment, out, seed, as_json=as_json)
         return
-    if course is None:
+    if not course:
         raise InputError(
             "--course", "the course folder", "nothing", "For practice without a course: --practice -o DIR."
         )
@@ -68,14 +70,14 @@ def handout(
         _hand_out(course, assignment, pids, workers, cluster, as_json=as_json)
 
 
-def _hand_out(course: Path, assignment: str, pids: Sequence[str], workers: int, cluster: str, *, as_json: bool) -> None:
+def _hand_out(course: str, assignment: str, pids: Sequence[str], workers: int, cluster: str, *, as_json: bool) -> None:
     from assignments.course import open_course
     from grader.handing_out import hand_out_to
 
     with resumable(), counted("handing out", "students") as show:
         handed = hand_out_to(open_course(course), assignment, pids, workers=workers, cluster=cluster, progress=show)
     if as_json:
-        print_json([{**asdict(item), "folder": str(item.folder)} for item in handed.results])
+        print_json([asdict(item) for item in handed.results])
     else:
         _print_handed(handed)
     if handed.failed:
@@ -86,12 +88,13 @@ def _print_handed(handed: Handed) -> None:
     for item in handed.results:
         if item.status != "failed":
             name = handed.students[item.student].name
-            typer.echo(f"{item.student}  {item.status:8}{name:24}{item.folder}")
+            typer.echo(f"{item.student}  {item.status:8}{name:24}{item.place}")
     again = sum(len(item.refused) for item in handed.results)
     if again:
         typer.echo(f"{again} variants were drawn again after they were foreseen or measured: redrawn-*.log says why.")
     if handed.bundle:
-        typer.echo(f"For a learning platform: {handed.bundle}. Whose is whose: {handed.table} (keep it to yourself).")
+        typer.echo(f"For a learning platform: {', '.join(handed.bundle)}.")
+        typer.echo(f"Whose is whose: {handed.table} (keep it to yourself).")
     done = len(handed.results) - len(handed.failed)
     typer.echo(f"{done} of {len(handed.results)} handed out.")
     if handed.failed:
@@ -100,7 +103,7 @@ def _print_handed(handed: Handed) -> None:
         typer.echo(f"{item.student}  failed  {handed.students[item.student].name:24}{item.reason}")
 
 
-def _look_ahead(course: Path, assignment: str, pids: Sequence[str], *, as_json: bool) -> None:
+def _look_ahead(course: str, assignment: str, pids: Sequence[str], *, as_json: bool) -> None:
     from assignments.course import open_course
     from grader.handing_out import expect
 
@@ -120,7 +123,7 @@ _SAID = {"already": "has it", "missing": "would get it", "new": "would get it"}
 # ---------------------------------------------------------------- plan
 
 
-def _plan(course: Path, assignment: str, pids: Sequence[str], plot: Path | None, *, as_json: bool) -> None:
+def _plan(course: str, assignment: str, pids: Sequence[str], plot: Path | None, *, as_json: bool) -> None:
     from assignments.course import open_course
     from assignments.plan_plot import draw_plan
     from grader.handing_out import plan_for

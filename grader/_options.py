@@ -1,17 +1,23 @@
-"""What several commands of this package share."""
+"""Options and printing that the commands of this package share."""
 
 from __future__ import annotations
 
 import json
 from collections.abc import Iterator
 from contextlib import contextmanager
-from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
-CourseOption = Annotated[Path, typer.Option("--course", metavar="DIR", help="The course folder.")]
+CourseOption = Annotated[
+    str, typer.Option("--course", metavar="DIR", help="The course: a folder, or the URL of one in an object store.")
+]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print the result as JSON.")]
+
+
+def print_json(result: Any) -> None:
+    """Print a result for other programs."""
+    typer.echo(json.dumps(result, ensure_ascii=False, indent=1, default=str))
 
 
 @contextmanager
@@ -22,8 +28,3 @@ def resumable() -> Iterator[None]:
     except KeyboardInterrupt:
         typer.echo("vml: stopped; run the same command again to continue.", err=True)
         raise typer.Exit(130) from None
-
-
-def print_json(result: Any) -> None:
-    """Print a result for programs."""
-    typer.echo(json.dumps(result, ensure_ascii=False, indent=1))
