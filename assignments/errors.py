@@ -41,8 +41,10 @@ class NotMeasuredError(VmlError):
 
 
 class UnfairError(VmlError):
-    """A variant could not be measured sharply enough, by what is known before it is rendered."""
+    """A variant cannot be measured as sharply as others, foreseen or seen in its video."""
 
     def __init__(self, symbol: str, sd: float, allowed: float) -> None:
         self.symbol, self.sd, self.allowed = symbol, sd, allowed
-        super().__init__(f"{symbol}: expected a predicted sd of at most {allowed:.3g}, got {sd:.3g}.")
+        super().__init__(
+            f"{symbol}: expected to be known to a standard deviation of at most {allowed:.3g}, got {sd:.3g}."
+        )

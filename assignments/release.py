@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from assignments.errors import NotMeasuredError, NoVariantError
-from assignments.fairness import allowance, conclusions, fair_variant, solve
+from assignments.fairness import allowance, conclusions, fair_variant, hold_fair, precision, solve
 from assignments.film import film
 from assignments.handout import FirstPicture, render_handout, write_handout
 from assignments.key import answer_key, stick_px, true_value
@@ -145,13 +145,14 @@ def _film_and_measure(
 
 
 def _hold(assignment: Assignment, truth: Truth, measured: ImpactSolution) -> None:
-    """Check that every conclusion comes back within a share of the student's tolerance."""
+    """Check that every conclusion comes back within a share of the student's tolerance, as sharply as for others."""
     for question in conclusions(assignment):
         if question.id in measured.estimates:
             true, found = true_value(question.id, truth), measured.value(question.id)
             allowed = RELEASE_SHARE * allowance(question, true)
             if not abs(found - true) <= allowed:
                 raise NotMeasuredError(question.id, true, found, allowed)
+    hold_fair(assignment, precision(assignment, truth, measured))
 
 
 def _write(order: Order, variant: Variant, made: MadeVideo, out: Path) -> dict[str, bytes]:

@@ -1,12 +1,12 @@
 """Hand out an assignment: a folder and a zip for every student, a key for the instructor.
 
-A student's folder is made under a temporary name and takes its own only when it is complete and its key is
-kept. So a run that was killed goes on where it stopped, and a second run changes nothing.
+A student's key is kept first, then the folder takes its name, then the zip: it says that the student has everything.
+So a run that was killed goes on where it stopped, and a second run changes nothing.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Future
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -14,14 +14,12 @@ from pathlib import Path
 from typing import Literal
 
 from assignments.costs import Cost, cost_of, keep_cost
-from assignments.course import HANDOUTS, Course
+from assignments.course import Course
+from assignments.handouts import Handouts, check_pseudonyms
 from assignments.model import AnswerKey, Assignment, Variant
 from assignments.release import Order, Release, release
-from assignments.tray import Tray, check_pseudonyms
 from vml_course.errors import VmlError
 from vml_course.executors import each_done, open_executor
-
-__all__ = ["HandedOut", "cost_file", "hand_out", "look_through", "tray_of"]
 
 Keep = Callable[[Variant, AnswerKey], None]
 IsKept = Callable[[str], bool]
@@ -36,8 +34,8 @@ class HandedOut:
     ----------
     student : str
         The pseudonym.
-    folder : str
-        Where it lies.
+    place : str
+        Where the student's folder lies: a path, or a URL.
     status : str
         "made", "already" (complete from an earlier run), "failed", or "missing" (nobody tried).
     redraws : int
@@ -49,7 +47,7 @@ class HandedOut:
     """
 
     student: str
-    folder: str
+    place: str
     status: Literal["made", "already", "failed", "missing"]
     redraws: int = 0
     refused: tuple[str, ...] = ()
@@ -68,8 +66,8 @@ def look_through(
     students : sequence of str
         Pseudonyms.
     is_kept : callable, optional
-        Whether a student's key is kept already; a complete folder without its key is made anew. Without it, a
-        complete folder is trusted.
+        Whether a student's key is kept already; files without their key are made anew. Without it, files are
+        trusted.
 
     Raises
     ------
@@ -77,12 +75,13 @@ def look_through(
         When a pseudonym cannot name a folder.
     """
     check_pseudonyms(students)
-    tray = tray_of(course, assignment)
+    handouts = handouts_of(course, assignment)
+    complete = handouts.complete()
 
     def has(student: str) -> bool:
-        return tray.holds(student) and (is_kept is None or is_kept(student))
+        return student in complete and (is_kept is None or is_kept(student))
 
-    return [HandedOut(s, tray.folder(s), "already" if has(s) else "missing") for s in students]
+    return [HandedOut(s, handouts.place(s), "already" if has(s) else "missing") for s in students]
 
 
 def hand_out(  # noqa: PLR0913 - four things to hand out, and how
@@ -94,7 +93,7 @@ def hand_out(  # noqa: PLR0913 - four things to hand out, and how
     is_kept: IsKept | None = None,
     workers: int = 1,
     cluster: str = "",
-    due: Callable[[str], str] | None = None,
+    due: Mapping[str, str] | None = None,
     progress: Progress | None = None,
 ) -> list[HandedOut]:
     """Make video, workbook and handout for every student, and keep the keys.
@@ -109,8 +108,8 @@ def hand_out(  # noqa: PLR0913 - four things to hand out, and how
         Processes that work at the same time.
     cluster : str
         Address of a dask scheduler that does the work instead; `local:N` starts one.
-    due : callable, optional
-        Told a pseudonym, returns the date that the handout shows.
+    due : mapping of str to str, optional
+        Date that the handout shows, by pseudonym.
     progress : callable, optional
         Told how many students are done, of how many.
 
@@ -126,15 +125,14 @@ def hand_out(  # noqa: PLR0913 - four things to hand out, and how
     """
     results = {found.student: found for found in look_through(course, assignment, students, is_kept)}
     missing = [student for student in results if results[student].status == "missing"]
-    tray, tell = tray_of(course, assignment), progress or (lambda _done, _total: None)
-    for student in results.keys() - set(missing):
-        tray.mend(student)
+    handouts, tell = handouts_of(course, assignment), progress or (lambda _done, _total: None)
     tell(len(results) - len(missing), len(results))
     if missing:
-        course.handouts(assignment.id).parent.mkdir(parents=True, exist_ok=True)
-        orders = (Order(assignment, course.secret, s, due(s) if due else "") for s in missing)
+        handouts.open_bundle(missing)
+        orders = (Order(assignment, course.secret, student, (due or {}).get(student, "")) for student in missing)
+        course.handouts(assignment.id).parent.mkdir(parents=True, exist_ok=True)  # of cost and log
         with open_executor(workers, cluster) as executor:
-            desk = _Desk(tray, keep, log_file(course, assignment))
+            desk = _Desk(handouts, keep, log_file(course, assignment))
             with desk.keeping_cost(cost_file(course, assignment)):
                 for done, (order, future) in enumerate(each_done(executor, release, orders), start=1):
                     results[order.student] = desk.finish(order.student, future)
@@ -142,9 +140,9 @@ def hand_out(  # noqa: PLR0913 - four things to hand out, and how
     return [results[student] for student in students]
 
 
-def tray_of(course: Course, assignment: Assignment) -> Tray:
-    """Return where the handouts of an assignment lie."""
-    return Tray(course.shelf, f"{HANDOUTS}/{assignment.id}")
+def handouts_of(course: Course, assignment: Assignment) -> Handouts:
+    """Return an assignment's handouts on the course's shelf."""
+    return Handouts(course.shelf, assignment.id)
 
 
 def cost_file(course: Course, assignment: Assignment) -> Path:
@@ -161,25 +159,25 @@ def log_file(course: Course, assignment: Assignment) -> Path:
 class _Desk:
     """Where what was made is taken in, one student after the other."""
 
-    tray: Tray
+    handouts: Handouts
     keep: Keep
     log: Path
     cost: Cost = field(default_factory=Cost)
 
     def finish(self, student: str, future: Future[Release]) -> HandedOut:
-        """Keep the key, then give the folder its name; whatever goes wrong concerns this student only."""
-        folder = self.tray.folder(student)
+        """Keep the key, then lay the files out; whatever goes wrong concerns this student only."""
+        place = self.handouts.place(student)
         try:
             released = future.result()
             self.keep(released.variant, released.key)
-            self.tray.put(student, released.files)
+            self.handouts.put(student, released.files)
         except VmlError as error:
-            return HandedOut(student, folder, "failed", reason=str(error))
+            return HandedOut(student, place, "failed", reason=str(error))
         except Exception as error:  # noqa: BLE001 - one student's failure stops nobody else
-            return HandedOut(student, folder, "failed", reason=f"{type(error).__name__}: {error}")
+            return HandedOut(student, place, "failed", reason=f"{type(error).__name__}: {error}")
         self.cost += cost_of(released)
         self._log(student, released.refused)
-        return HandedOut(student, folder, "made", released.variant.redraws, released.refused)
+        return HandedOut(student, place, "made", released.variant.redraws, released.refused)
 
     @contextmanager
     def keeping_cost(self, path: Path) -> Iterator[None]:
@@ -188,10 +186,12 @@ class _Desk:
             yield
         finally:
             if self.cost.students:
+                path.parent.mkdir(exist_ok=True)
                 keep_cost(path, self.cost)
 
     def _log(self, student: str, refused: Iterable[str]) -> None:
         lines = "".join(f"{student} {why}\n" for why in refused)
         if lines:
+            self.log.parent.mkdir(exist_ok=True)
             with self.log.open("a", encoding="utf-8", newline="\n") as file:
                 file.write(lines)

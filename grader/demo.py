@@ -150,12 +150,12 @@ def _hand_in(course: Course, assignment: Assignment, item: HandedOut, persona: P
         key = gradebook.key_of(assignment.id, item.student)
     desk = course.folder / "students" / item.student
     desk.mkdir(parents=True)
-    tracked = _measure(Path(item.folder), desk, key)
+    tracked = _measure(Path(item.place), desk, key)
     answers = persona.spoil(_right_answers(tracked, key), key.truth["px_per_m"])
     units = {question.id: question.unit for question in assignment.questions}
     returned = course.folder / "returned" / f"{item.student}.xlsx"
     returned.parent.mkdir(exist_ok=True)
-    fill_workbook(Path(item.folder) / WORKBOOK, returned, answers, units, _table(tracked, assignment.points))
+    fill_workbook(Path(item.place) / WORKBOOK, returned, answers, units, _table(tracked, assignment.points))
     return returned
 
 

@@ -15,7 +15,7 @@ from assignments.course import Course
 from assignments.load import load_assignment
 from assignments.model import Assignment
 from assignments.plan import Plan, make_plan, sample_cost
-from assignments.usecases import HandedOut, cost_file, hand_out, look_through, tray_of
+from assignments.usecases import HandedOut, cost_file, hand_out, handouts_of, look_through
 from grader.gradebook import Gradebook, Student, is_begun
 from grader.roster import Enrolled, read_roster
 from vml_course.errors import InputError
@@ -34,15 +34,15 @@ class Handed:
     results : tuple of HandedOut
     students : mapping of str to Student
         By pseudonym.
-    bundle : str
-        Where the zip for the learning platform lies; "" when there is nothing to hand out.
+    bundle : tuple of str
+        Where the zips for the learning platform lie; none when there is nothing to hand out.
     table : Path
         Whose pseudonym is whose.
     """
 
     results: tuple[HandedOut, ...]
     students: Mapping[str, Student]
-    bundle: str
+    bundle: tuple[str, ...]
     table: Path
 
     @property
@@ -100,13 +100,13 @@ def hand_out_to(  # noqa: PLR0913 - to whom, and by whom
             is_kept=lambda pid: gradebook.has_key(assignment_id, pid),
             workers=workers,
             cluster=cluster,
-            due=lambda pid: course.calendar.due_text(assignment_id, pid),
+            due={pid: course.calendar.due_text(assignment_id, pid) for pid in students},
             progress=progress,
         )
     numbers = _participants(students.values()) if participants is None else participants
     folders = {pid: moodle_folder(pid, numbers[pid]) if pid in numbers else pid for pid in students}
-    bundle = tray_of(course, assignment).bundle(folders)
-    return Handed(tuple(results), students, bundle, _write_table(course, assignment, students.values()))
+    bundle = handouts_of(course, assignment).put_bundle(folders)
+    return Handed(tuple(results), students, tuple(bundle), _write_table(course, assignment, students.values()))
 
 
 def expect(course: Course, assignment_id: str, pids: Sequence[str] = ()) -> list[Expected]:

@@ -76,7 +76,7 @@ def _hand_out(course: str, assignment: str, pids: Sequence[str], workers: int, c
     with resumable(), counted("handing out", "students") as show:
         handed = hand_out_to(open_course(course), assignment, pids, workers=workers, cluster=cluster, progress=show)
     if as_json:
-        print_json([{**asdict(item), "folder": str(item.folder)} for item in handed.results])
+        print_json([asdict(item) for item in handed.results])
     else:
         _print_handed(handed)
     if handed.failed:
@@ -87,12 +87,13 @@ def _print_handed(handed: Handed) -> None:
     for item in handed.results:
         if item.status != "failed":
             name = handed.students[item.student].name
-            typer.echo(f"{item.student}  {item.status:8}{name:24}{item.folder}")
+            typer.echo(f"{item.student}  {item.status:8}{name:24}{item.place}")
     again = sum(len(item.refused) for item in handed.results)
     if again:
         typer.echo(f"{again} variants were drawn again after they were foreseen or measured: redrawn-*.log says why.")
     if handed.bundle:
-        typer.echo(f"For a learning platform: {handed.bundle}. Whose is whose: {handed.table} (keep it to yourself).")
+        typer.echo(f"For a learning platform: {', '.join(handed.bundle)}.")
+        typer.echo(f"Whose is whose: {handed.table} (keep it to yourself).")
     done = len(handed.results) - len(handed.failed)
     typer.echo(f"{done} of {len(handed.results)} handed out.")
     if handed.failed:

@@ -37,12 +37,13 @@ def test_a_variant_that_is_too_hard_is_drawn_again_and_it_is_said_why(monkeypatc
     monkeypatch.setattr(assignments.fairness, "predict", hard_at_first)
     fair = fair_variant(KICK, SECRET, "s1")
     assert fair.variant == draw_variant(KICK, SECRET, "s1", first=first.redraws + 1)
-    assert fair.refused == (f"draw {first.redraws}: I: expected a predicted sd of at most 0.0125, got 0.1.",)
+    why = "I: expected to be known to a standard deviation of at most 0.0125, got 0.1."
+    assert fair.refused == (f"draw {first.redraws}: {why}",)
 
 
 def test_where_nothing_is_fair_the_last_reasons_are_said(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(assignments.fairness, "predict", lambda *_: Prediction({"I": 1.0}, {"I": float("nan")}))
-    with pytest.raises(NoVariantError, match="I: expected a predicted sd of at most"):
+    with pytest.raises(NoVariantError, match="I: expected to be known to a standard deviation of at most"):
         fair_variant(KICK, SECRET, "s1")
 
 

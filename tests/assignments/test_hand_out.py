@@ -6,7 +6,6 @@ import dataclasses
 import hashlib
 import itertools
 import json
-import re
 import tempfile
 import zipfile
 from collections.abc import Iterator
@@ -25,7 +24,7 @@ from assignments.key import to_json
 from assignments.load import load_assignment
 from assignments.model import AnswerKey, Assignment, Variant
 from assignments.release import Order, Release
-from assignments.usecases import HandedOut, cost_file, hand_out, look_through, tray_of
+from assignments.usecases import HandedOut, cost_file, hand_out, look_through
 from assignments.variants import draw_variant
 from assignments.workplace import workplace_prefix
 from vml_course.errors import InputError
@@ -36,6 +35,7 @@ from vml_course.usecases.make_video import MadeVideo
 
 KICK = load_assignment("soccer-kick")
 SECRET = bytes(range(32))
+SHARP = itertools.repeat(0.001)  # a standard deviation that nobody minds
 Keys = dict[str, tuple[Variant, AnswerKey]]
 
 
@@ -43,7 +43,7 @@ class Made:
     """A course of one student whose video was really made and measured."""
 
     def __init__(self, folder: Path, workers: int = 1, cluster: str = "") -> None:
-        self.course = dataclasses.replace(new_course(folder), secret=SECRET)
+        self.course = Course(new_course(folder).folder, "Test", SECRET)
         self.keys: Keys = {}
         self.told: list[tuple[int, int]] = []
         self.results = hand_out(
@@ -66,7 +66,7 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Made:
 def test_a_student_gets_a_folder_of_three_files(made: Made) -> None:
     assert made.results[0].status == "made", made.results[0].reason
     assert sorted(path.name for path in made.folder.iterdir()) == ["handout.html", "video.mp4", "workbook.xlsx"]
-    assert tray_of(made.course, KICK).holds("s1")
+    assert made.results[0].place == str(made.folder)
     assert made.told == [(0, 1), (1, 1)]
 
 
@@ -89,14 +89,6 @@ def test_the_zip_holds_the_same_files_and_nothing_of_this_machine(made: Made) ->
     with zipfile.ZipFile(made.course.handouts(KICK.id) / "zips" / "s1.zip") as archive:
         assert {name: archive.read(name) for name in archive.namelist()} == _files(made)
         assert {member.date_time for member in archive.infolist()} == {(1980, 1, 1, 0, 0, 0)}
-
-
-def test_a_zip_that_is_gone_is_made_again_from_the_folder(made: Made) -> None:
-    path = made.course.handouts(KICK.id) / "zips" / "s1.zip"
-    before = path.read_bytes()
-    path.unlink()
-    hand_out(made.course, KICK, ["s1"], _never)
-    assert path.read_bytes() == before
 
 
 def test_nothing_else_is_left_in_the_course(made: Made) -> None:
@@ -160,50 +152,6 @@ def _state(folder: Path) -> dict[Path, tuple[int, bytes]]:
     return {path: (path.stat().st_mtime_ns, path.read_bytes()) for path in folder.rglob("*") if path.is_file()}
 
 
-# ---------------------------------------------------------------- nothing leaks
-
-
-def test_no_answer_stands_in_what_is_handed_out(made: Made) -> None:
-    _, key = made.keys["s1"]
-    secret = {name: value for name, value in key.values.items() if name not in {"fps", "v_b1"}}
-    secret |= {f"true {name}": key.truth[name] for name in ("impulse_N_s", "t_impact_s")}
-    texts = dict(_texts(made.folder))
-    found = [
-        f"{name} = {written} in {where}"
-        for (name, value), (where, text) in itertools.product(secret.items(), texts.items())
-        for written in _roundings(value)
-        if re.search(rb"(?<![0-9.,])" + re.escape(written.encode()) + rb"(?![0-9])", text)
-    ]
-    assert not found
-
-
-def test_neither_name_nor_secret_nor_this_machine_stands_in_what_is_handed_out(made: Made) -> None:
-    for where, text in _texts(made.folder):
-        for word in (SECRET.hex(), str(made.course.folder), "truth", KICK.folder):
-            assert word.encode() not in text, f"{word} in {where}"
-
-
-def _texts(folder: Path) -> Iterator[tuple[str, bytes]]:
-    """Yield everything readable: the files, the parts of the workbook, the page without its pictures."""
-    for path in folder.iterdir():
-        content = path.read_bytes()
-        if path.suffix == ".html":
-            content = re.sub(rb"base64,[A-Za-z0-9+/=]+", b"", content)
-        yield path.name, content
-        if zipfile.is_zipfile(path):
-            with zipfile.ZipFile(path) as archive:
-                yield from ((f"{path.name}/{name}", archive.read(name)) for name in archive.namelist())
-
-
-def _roundings(value: float) -> set[str]:
-    """Write a number as people round it, in three digits and more, with point and with comma."""
-    written = (
-        {f"{value:.{digits}g}" for digits in range(3, 16)} | {f"{value:.{n}f}" for n in range(2, 7)} | {repr(value)}
-    )
-    long = {text for text in written if len(text.strip("0.").replace(".", "")) >= 3}
-    return long | {text.replace(".", ",") for text in long}
-
-
 # ---------------------------------------------------------------- failures
 
 
@@ -258,7 +206,7 @@ def test_a_name_that_cannot_be_a_folder_is_refused_before_anything_is_made(made:
 
 def test_a_variant_that_cannot_be_measured_is_drawn_again(monkeypatch: pytest.MonkeyPatch) -> None:
     """The first two videos are measured 3 % off in I: inside the student's 5 %, beyond half of it."""
-    _measure_inertia_by(monkeypatch, iter([1.03, 0.97, 1.0]))
+    _measure_inertia_by(monkeypatch, iter([1.03, 0.97, 1.0]), SHARP)
     released = assignments.release.release(_order())
     assert len(released.refused) == 2
     assert "I: expected to be measured within 2.50%, got 3.00%" in released.refused[0]
@@ -268,9 +216,16 @@ def test_a_variant_that_cannot_be_measured_is_drawn_again(monkeypatch: pytest.Mo
 def test_a_student_for_whom_nothing_can_be_measured_fails_with_the_last_reasons(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    _measure_inertia_by(monkeypatch, itertools.repeat(float("nan")))
+    _measure_inertia_by(monkeypatch, itertools.repeat(float("nan")), SHARP)
     with pytest.raises(NoVariantError, match="I: expected to be measured"):
         assignments.release.release(_order())
+
+
+def test_a_video_in_which_the_reference_is_unsure_is_not_released(monkeypatch: pytest.MonkeyPatch) -> None:
+    _measure_inertia_by(monkeypatch, itertools.repeat(1.0), iter([0.2, 0.001]))
+    refused = assignments.release.release(_order()).refused
+    assert len(refused) == 1
+    assert "I: expected to be known to a standard deviation of at most" in refused[0]
 
 
 def test_a_measurement_that_is_off_carries_its_figures() -> None:
@@ -284,12 +239,18 @@ def test_an_order_does_not_show_the_secret() -> None:
     assert str(SECRET) not in repr(_order())
 
 
-def _measure_inertia_by(monkeypatch: pytest.MonkeyPatch, factors: Iterator[float]) -> None:
-    """Film without pictures, and find the inertia off by these factors, one after the other."""
+def _measure_inertia_by(monkeypatch: pytest.MonkeyPatch, factors: Iterator[float], sds: Iterator[float]) -> None:
+    """Film without pictures, and find the inertia off by these factors and as unsure, one after the other."""
+
+    def solved(_track: object, truth: Truth, *_: object) -> ImpactSolution:
+        inertia = Estimate(truth.met.inertia_kg_m2 * next(factors), next(sds))
+        estimates = {"e": Estimate(truth.met.restitution, 0.001), "I": inertia}
+        return ImpactSolution("fixed-pivot", "joint", estimates, 0.0, truth.met.frame_before)
+
     monkeypatch.setattr(assignments.release, "film", _without_pictures)
     monkeypatch.setattr(assignments.release, "fair_variant", _drawn)
     monkeypatch.setattr(assignments.release, "track_points", lambda *_: None)
-    monkeypatch.setattr(assignments.release, "solve", lambda _track, truth, *_: _measured(truth, next(factors)))
+    monkeypatch.setattr(assignments.release, "solve", solved)
     monkeypatch.setattr(assignments.release, "_write", lambda *_: {})
 
 
@@ -301,11 +262,6 @@ def _without_pictures(variant: Variant, folder: Path) -> MadeVideo:
     folder.mkdir(exist_ok=True)
     (folder / "video.mp4").write_bytes(b"a video")
     return MadeVideo(folder / "video.mp4", foresee(variant))
-
-
-def _measured(truth: Truth, factor: float) -> ImpactSolution:
-    estimates = {"e": Estimate(truth.met.restitution, 0.001), "I": Estimate(truth.met.inertia_kg_m2 * factor, 0.01)}
-    return ImpactSolution("fixed-pivot", "joint", estimates, 0.0, truth.met.frame_before)
 
 
 def _order() -> Order:

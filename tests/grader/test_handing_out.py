@@ -85,8 +85,8 @@ def test_a_student_who_joins_later_changes_nobody(course: Course) -> None:
     handed = hand_out_to(course, KICK)
     assert [item.status for item in handed.results] == ["already"] * 4 + ["made"]
     after = _state(course.handouts(KICK))
-    assert {path for path in before if after[path] != before[path]} == {"bundle-moodle.zip"}
-    with zipfile.ZipFile(handed.bundle) as bundle:
+    assert {path for path in before if after[path] != before[path]} == {"bundle-moodle.zip", "bundle.json"}
+    with zipfile.ZipFile(handed.bundle[0]) as bundle:
         assert len(bundle.namelist()) == 5 * 3
 
 
@@ -94,7 +94,12 @@ def test_only_those_who_are_named_get_something(course: Course) -> None:
     pids = [item.pid for item in _after_enrolling(course)]
     handed = hand_out_to(course, KICK, pids[1:3])
     assert [item.student for item in handed.results] == pids[1:3]
-    assert {path.name for path in course.handouts(KICK).iterdir()} == {*pids[1:3], "zips", "bundle-moodle.zip"}
+    assert {path.name for path in course.handouts(KICK).iterdir()} == {
+        *pids[1:3],
+        "zips",
+        "bundle-moodle.zip",
+        "bundle.json",
+    }
     with pytest.raises(InputError, match="a pseudonym of this course"):
         hand_out_to(course, KICK, ["nobody"])
 
@@ -102,7 +107,7 @@ def test_only_those_who_are_named_get_something(course: Course) -> None:
 def test_folders_carry_the_platforms_number_where_it_is_known(course: Course) -> None:
     pids = [item.pid for item in _after_enrolling(course)]
     handed = hand_out_to(course, KICK, participants={pids[0]: "48213"})
-    with zipfile.ZipFile(handed.bundle) as bundle:
+    with zipfile.ZipFile(handed.bundle[0]) as bundle:
         folders = {name.split("/")[0] for name in bundle.namelist()}
     assert folders == {f"{pids[0]}_48213_assignsubmission_file", *pids[1:]}
 

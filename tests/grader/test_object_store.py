@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import zipfile
 from pathlib import Path
 
 import pytest
 
 import assignments.usecases
+from assignments.bundle import unzipped
 from assignments.course import new_course, open_course
 from assignments.model import AnswerKey, Variant
 from assignments.release import Order, Release
@@ -47,10 +47,10 @@ def test_a_course_in_a_store_hands_out_takes_in_and_grades(place, tmp_path, monk
     again = hand_out_to(course, KICK)
     assert [item.status for item in again.results] == ["already"] * 3
     pid = again.results[0].student
-    assert course.shelf.names(f"handouts/{KICK}") == {"zips", "bundle-moodle.zip", *again.students}
+    expected = {"zips", "bundle-moodle.zip", "bundle.json", *again.students}
+    assert course.shelf.names(f"handouts/{KICK}") == expected
     assert b"Monday 26 April 2100, 23:59 (UTC)" in course.shelf.read(f"handouts/{KICK}/{pid}/handout.html")
-    with course.shelf.open(f"handouts/{KICK}/bundle-moodle.zip") as file, zipfile.ZipFile(file) as bundle:
-        assert len(bundle.namelist()) == 9
+    assert len(unzipped(course.shelf.read(f"handouts/{KICK}/bundle-moodle.zip"))) == 9
 
     returned = _filled(course.shelf.read(f"handouts/{KICK}/{pid}/workbook.xlsx"), tmp_path, kit)
     assert run(["collect", KICK, str(returned.parent), "--course", place]) == 0

@@ -46,18 +46,6 @@ def test_a_folder_takes_the_place_of_an_older_one(shelf: Shelf) -> None:
     assert shelf.names("handouts") == {"x"}
 
 
-def test_a_file_of_this_machine_is_sent_and_read_here_and_there(shelf: Shelf, tmp_path: Path) -> None:
-    for content in (b"0123456789", b"abcdefghij" * 100_000):
-        made = tmp_path / "made.bin"
-        made.write_bytes(content)
-        shelf.send(made, "bundles/b.bin")
-        with shelf.open("bundles/b.bin") as file:
-            file.seek(7)
-            assert file.read(2) == content[7:9]
-    with pytest.raises(FileMissingError, match="expected a file that can be read"):
-        shelf.open("none.bin")
-
-
 def test_what_a_killed_run_left_beside_is_gone_with_the_next(tmp_path: Path) -> None:
     (tmp_path / "h" / ".x.new").mkdir(parents=True)
     (tmp_path / "h" / ".x.new" / "half.txt").write_bytes(b"1")

@@ -9,7 +9,7 @@ from __future__ import annotations
 import shutil
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, BinaryIO, Protocol, cast
+from typing import Any, Protocol
 from urllib.parse import urlsplit
 
 from fsspec.core import url_to_fs  # type: ignore[import-untyped]
@@ -43,14 +43,6 @@ class Shelf(Protocol):
 
     def put_files(self, name: str, files: Mapping[str, bytes], last: str) -> None:
         """Put a folder with these files in place of `name`; the one called `last` appears after all others."""
-        ...
-
-    def send(self, made: Path, name: str) -> None:
-        """Put a file of this machine in place of `name`; it is gone from where it was, or may be."""
-        ...
-
-    def open(self, name: str) -> BinaryIO:
-        """Open a file for reading here and there; FileMissingError when there is none."""
         ...
 
 
@@ -125,21 +117,6 @@ class FolderShelf:
         made.replace(path)
         shutil.rmtree(older, ignore_errors=True)
 
-    def send(self, made: Path, name: str) -> None:
-        """Move a file in place of `name`."""
-        path = self._path(name)
-        path.parent.mkdir(parents=True, exist_ok=True)
-        with replacing(path) as temporary:
-            shutil.move(made, temporary)
-
-    def open(self, name: str) -> BinaryIO:
-        """Open a file for reading here and there."""
-        path = self._path(name)
-        try:
-            return path.open("rb")
-        except OSError as error:
-            raise FileMissingError(str(path), "a file that can be read", error.strerror or "none") from error
-
     def _path(self, name: str) -> Path:
         return self.folder / _checked(name) if name else self.folder
 
@@ -187,20 +164,6 @@ class StoreShelf:
             self._send(f"{self._path(name)}/{_checked(file)}", files[file])
         for gone in older - set(files):
             self._files.rm(f"{self._path(name)}/{gone}", recursive=True)
-
-    def send(self, made: Path, name: str) -> None:
-        """Send a file of this machine, in parts where it is large."""
-        try:
-            self._files.put_file(str(made), self._path(name))
-        except OSError as error:
-            raise FileMissingError(self.place(name), "a place to write to", _reason(error)) from error
-
-    def open(self, name: str) -> BinaryIO:
-        """Open an object; only what is read of it is fetched."""
-        try:
-            return cast("BinaryIO", self._files.open(self._path(name), "rb"))
-        except OSError as error:
-            raise FileMissingError(self.place(name), "a file that can be read", _reason(error)) from error
 
     def _send(self, path: str, data: bytes) -> None:
         try:
