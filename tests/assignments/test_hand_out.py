@@ -43,7 +43,7 @@ class Made:
     """A course of one student whose video was really made and measured."""
 
     def __init__(self, folder: Path, workers: int = 1, cluster: str = "") -> None:
-        self.course = Course(new_course(folder).folder, "Test", SECRET)
+        self.course = dataclasses.replace(new_course(folder), secret=SECRET)
         self.keys: Keys = {}
         self.told: list[tuple[int, int]] = []
         self.results = hand_out(
