@@ -42,7 +42,7 @@ class Separation:
     Attributes
     ----------
     mistakes : tuple of str
-        Codes of `assignments.mistakes`.
+        Codes of the textbook's mistakes.
     apart : float
         Smallest relative distance between any two of their values.
     """
@@ -239,6 +239,10 @@ class AnswerKey:
     time_s : float array, shape (n,)
     xy_px : float array, shape (n, p, 2)
         The true trajectory.
+    parameters : mapping of str to float
+        Of the scene.
+    scene : str
+        Its name; it says which textbook answers are judged by. Keys of the first version had none: all were kicks.
     """
 
     assignment_id: str
@@ -256,6 +260,7 @@ class AnswerKey:
     time_s: FloatArray
     xy_px: FloatArray
     parameters: Mapping[str, float] = field(default_factory=dict)
+    scene: str = "soccer_kick"
 
     def __post_init__(self) -> None:
         axes = Axes()

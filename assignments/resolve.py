@@ -12,12 +12,12 @@ from pathlib import Path
 from typing import Any
 
 from assignments.derive import FORMULAS, arguments_of
-from assignments.key import ANSWERABLE
-from assignments.mistakes import MISTAKES
+from assignments.key import answerable
 from assignments.model import Assignment, Draw
+from assignments.textbook import textbook_of
 from vml_course.errors import InputError, UnknownNameError, VmlError
 from vml_course.kinetics.impact_model import ImpactOptions
-from vml_course.kinetics.models import model_names
+from vml_course.kinetics.models import impact_model, model_names
 from vml_course.model.choice import Choice, choices_of
 from vml_course.model.quantity import Quantity, quantities_of
 from vml_course.model.recording import Recording
@@ -33,17 +33,34 @@ def mistakes_in(assignment: Assignment) -> Mistakes:
     yield from _unknown("model", [assignment.model], model_names())
     yield from _questions(assignment)
     yield from _givens(assignment)
-    yield from _unknown("separate.mistakes", assignment.separation.mistakes, MISTAKES)
     if not (Path(assignment.folder) / assignment.handout_template).is_file():
         yield InputError("handout", f"a file in {assignment.id}/", repr(assignment.handout_template))
     if assignment.scene in impact_scene_names():
+        yield from _physics(assignment)
         yield from _scene(assignment, scene_class(assignment.scene))
+
+
+def _physics(assignment: Assignment) -> Mistakes:
+    """Yield what the scene's textbook does not know, and what is missing for what it concludes."""
+    model = scene_class(assignment.scene).model
+    if assignment.model != model and assignment.model in model_names():
+        yield InputError("model", f"{model!r}, that of the scene {assignment.scene}", repr(assignment.model))
+    book, asked = textbook_of(assignment.scene), [question.id for question in assignment.questions]
+    yield from _unknown("question.id", asked, answerable(assignment.scene))
+    yield from _unknown("separate.mistakes", assignment.separation.mistakes, book.mistakes)
+    told = [given.id for given in assignment.givens]
+    for symbol in impact_model(model).given:
+        if symbol not in told:
+            yield InputError("given", f"one with the id {symbol!r}, from which the answers follow", ", ".join(told))
+    fields = {item.field: 1.0 for item in book.measured if item.id in asked} | book.resting(asked)
+    if not any(book.complete(fields, dict.fromkeys(told, 1.0))):
+        needed = ", ".join(item.id for item in book.measured if not item.may_rest)
+        yield InputError("question", f"questions from which the conclusions follow, of {needed}", ", ".join(asked))
 
 
 def _questions(assignment: Assignment) -> Mistakes:
     ids = [question.id for question in assignment.questions]
     yield from _twice("question", ids)
-    yield from _unknown("question.id", ids, ANSWERABLE)
     for question in assignment.questions:
         key = f"question.{question.id}"
         yield from _unknown(f"{key}.needs", question.needs, [other for other in ids if other != question.id])
