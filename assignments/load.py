@@ -16,6 +16,7 @@ from assignments.schema import AssignmentFile
 from vml_course.errors import InputError, UnknownNameError
 
 FILE = "assignment.toml"
+TO_BEGIN_WITH = "soccer-kick"
 
 
 def catalogue() -> Path:
@@ -24,8 +25,9 @@ def catalogue() -> Path:
 
 
 def assignment_ids() -> tuple[str, ...]:
-    """Return the assignments of the catalogue: one folder each."""
-    return tuple(sorted(folder.name for folder in catalogue().iterdir() if (folder / FILE).is_file()))
+    """Return the assignments of the catalogue: one folder each, the one to begin with first."""
+    names = (folder.name for folder in catalogue().iterdir() if (folder / FILE).is_file())
+    return tuple(sorted(names, key=lambda name: (name != TO_BEGIN_WITH, name)))
 
 
 def load_assignment(assignment_id: str) -> Assignment:

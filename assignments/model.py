@@ -140,6 +140,8 @@ class Assignment:
         The points to track.
     handout_template : str
         File name in `folder`.
+    goals : tuple of str
+        What a student can do afterwards, one sentence each.
     version : str
         Of the assignment's text and numbers; it goes into every workbook.
     """
@@ -165,6 +167,7 @@ class Assignment:
     stick: Stick = Stick("bar_left", "bar_right", "bar")
     solve: Mapping[str, str | float] = field(default_factory=dict)
     words: Mapping[str, str] = field(default_factory=dict)
+    goals: tuple[str, ...] = ()
 
     @property
     def total_points(self) -> float:

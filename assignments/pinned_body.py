@@ -1,5 +1,7 @@
 """What the textbooks of bodies on a pivot share: what is measured, how one number stands for another.
 
+`v_f` is the tracked mark's speed, `v_c` that of the point of the contact, where the two are apart.
+
 Signs: angular velocities counter-clockwise; speeds of the striking point along its path and of the struck body along
 the contact normal, positive from the striker to the struck body.
 """
@@ -25,15 +27,19 @@ def _struck(met: Met, velocity_m_s: object) -> float:
 MEASURED = (
     Measured("omega1", "omega1", lambda met: met.impact.omega_before_rad_s, may_rest=True),
     Measured("omega2", "omega2", lambda met: met.impact.omega_after_rad_s),
-    Measured("v_f1", "v1", lambda met: met.impact.omega_before_rad_s * _arm(met.given), may_rest=True),
-    Measured("v_f2", "v2", lambda met: met.impact.omega_after_rad_s * _arm(met.given)),
+    Measured("v_f1", "v1", lambda met: met.impact.omega_before_rad_s * met.given["L"], may_rest=True),
+    Measured("v_f2", "v2", lambda met: met.impact.omega_after_rad_s * met.given["L"]),
+    Measured("v_c1", "v1", lambda met: met.impact.omega_before_rad_s * _arm(met.given), may_rest=True),
+    Measured("v_c2", "v2", lambda met: met.impact.omega_after_rad_s * _arm(met.given)),
     Measured("v_b1", "u1", lambda met: _struck(met, met.impact.struck_before_m_s), may_rest=True),
     Measured("v_b2", "u2", lambda met: _struck(met, met.impact.struck_after_m_s)),
 )
 
 CONCLUDED = (
-    Concluded("e", lambda n: n.e, lambda met: met.impact.restitution),
-    Concluded("I", lambda n: n.I, lambda met: met.impact.inertia_kg_m2),
+    Concluded("e", "({v_b2} − {v_f2}) / ({v_f1} − {v_b1})", lambda n: n.e, lambda met: met.impact.restitution),
+    Concluded(
+        "I", "{m} {arm} ({v_b2} − {v_b1}) / ({omega1} − {omega2})", lambda n: n.I, lambda met: met.impact.inertia_kg_m2
+    ),
 )
 
 FACTS = {"tilt_rad": lambda met: math.radians(met.parameters.get("normal_tilt_deg", 0.0))}

@@ -107,7 +107,7 @@ def measure(video: Path, truth: Truth, assignment: Assignment, stick_m: float) -
     """
     seeds = [Seed(point, *truth.point_px(point)) for point in assignment.points]
     track = run(make_tracker("dic", block=BLOCK_PX), read_frames(video), seeds, fps=truth.camera.fps)
-    options: dict[str, Any] = dict(assignment.solve)
+    options: dict[str, Any] = {**truth.declared, **assignment.solve}
     motion = calibrate(stick_px(truth, assignment), stick_m).apply(track)
     return impact_model(assignment.model).solve(motion, truth.given, ImpactOptions(**options))
 

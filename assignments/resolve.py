@@ -6,6 +6,7 @@ Check names (`check = "velocity"`) are not resolved here: checks live on the flo
 from __future__ import annotations
 
 import dataclasses
+import math
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
@@ -15,6 +16,7 @@ from assignments.derive import FORMULAS, arguments_of
 from assignments.key import answerable
 from assignments.model import Assignment, Draw
 from assignments.textbook import textbook_of
+from assignments.theory import promised
 from vml_course.errors import InputError, UnknownNameError, VmlError
 from vml_course.kinetics.impact_model import ImpactOptions
 from vml_course.kinetics.models import impact_model, model_names
@@ -25,6 +27,7 @@ from vml_course.model.units import UNITS
 from vml_course.synth.scene import AnyScene, impact_scene_names, scene_class
 
 Mistakes = Iterator[InputError]
+AT_REST = 1e-9  # m/s or rad/s
 
 
 def mistakes_in(assignment: Assignment) -> Mistakes:
@@ -52,10 +55,31 @@ def _physics(assignment: Assignment) -> Mistakes:
     for symbol in impact_model(model).given:
         if symbol not in told:
             yield InputError("given", f"one with the id {symbol!r}, from which the answers follow", ", ".join(told))
+    yield from _of_other_points(assignment)
     fields = {item.field: 1.0 for item in book.measured if item.id in asked} | book.resting(asked)
     if not any(book.complete(fields, dict.fromkeys(told, 1.0))):
         needed = ", ".join(item.id for item in book.measured if not item.may_rest)
         yield InputError("question", f"questions from which the conclusions follow, of {needed}", ", ".join(asked))
+
+
+def _of_other_points(assignment: Assignment) -> Mistakes:
+    """Yield questions about a number that is not the one of the formulas, and unasked bodies that do not rest."""
+    usual, fixed = quantities_of(scene_class(assignment.scene)), assignment.fixed
+    book = textbook_of(assignment.scene)
+    try:
+        met = promised(assignment.scene, {name: value for name, value in fixed.items() if name in usual})
+    except InputError:  # out of range, which is said elsewhere
+        return
+    numbers, asked = book.numbers_of(met), {question.id for question in assignment.questions}
+    resting = book.resting(asked)
+    for item in book.measured:
+        used = getattr(numbers, item.field)
+        if item.id in asked and not math.isclose(item.true(met), used, rel_tol=1e-9, abs_tol=1e-9):
+            same = [other.id for other in book.measured if other.field == item.field and other.id != item.id]
+            yield InputError(f"question.{item.id}", f"{' or '.join(same)}, that of the point that is hit", item.id)
+        if resting.get(item.field) == 0.0 and abs(used) > AT_REST:
+            resting.pop(item.field)
+            yield InputError("question", f"a question {item.id}: the body is not at rest", ", ".join(sorted(asked)))
 
 
 def _questions(assignment: Assignment) -> Mistakes:

@@ -8,11 +8,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import asdict, dataclass, fields
 from typing import Any
 
-from vml_course.errors import UnknownNameError
+import numpy as np
+
+from vml_course.errors import InputError, UnknownNameError
 from vml_course.model.truth import ImpactTruth
+from vml_course.synth.scene import Scene, scene_class
 
 Numbers = Any
 """A frozen record of the numbers that formulas take, one class a textbook; every field is a float in SI units."""
@@ -54,11 +57,22 @@ class Measured:
 
 @dataclass(frozen=True)
 class Concluded:
-    """A number that follows from measured ones, by `formula`; an impact gives it by `true`."""
+    """A number that follows from measured ones, by `formula`; an impact gives it by `true`.
+
+    `text` is the formula in print: ids of questions and given numbers in braces, for symbols or for numbers. `also`
+    holds other right ways; on measured numbers they give slightly other values.
+    """
 
     id: str
+    text: str
     formula: Formula
     true: Callable[[Met], float]
+    also: tuple[Formula, ...] = ()
+
+    @property
+    def formulas(self) -> tuple[Formula, ...]:
+        """Every right way."""
+        return (self.formula, *self.also)
 
 
 @dataclass(frozen=True)
@@ -172,8 +186,8 @@ class Textbook:
 
     def resting(self, asked: Iterable[str]) -> dict[str, float]:
         """Return the fields that are 0 because nothing asks for them."""
-        asked = set(asked)
-        return {item.field: 0.0 for item in self.measured if item.may_rest and item.id not in asked}
+        covered = {item.field for item in self.measured if item.id in set(asked)}
+        return {item.field: 0.0 for item in self.measured if item.may_rest and item.field not in covered}
 
     def complete(self, values: Values, given: Values) -> Iterator[Values]:
         """Yield each way in which written fields make up all measured fields, as they stand first."""
@@ -191,6 +205,48 @@ class Textbook:
         """Return the numbers of an impact."""
         facts = {name: fact(met) for name, fact in (self.facts or {}).items()}
         return self.record({item.field: item.true(met) for item in self.measured} | facts, met.given)
+
+
+def unknown(symbol: str) -> Callable[[Met], float]:
+    """Return how an impact gives one of its scene's unknowns."""
+    return lambda met: met.impact.unknown(symbol)
+
+
+def by_code(*mistakes: Mistake) -> dict[str, Mistake]:
+    """Return mistakes by their codes."""
+    return {mistake.code: mistake for mistake in mistakes}
+
+
+def promised(name: str, parameters: Values) -> Met:
+    """Return the impact that a scene promises with these parameters, in closed form.
+
+    Raises
+    ------
+    InputError
+        When the scene refuses the parameters, or has no impact.
+    """
+    settings: dict[str, Any] = dict(parameters)
+    scene = scene_class(name)(**settings)
+    if not isinstance(scene, Scene):
+        raise InputError("scene", "a scene with an impact", name)
+    law = scene.law()
+    answer = law.answer()
+    impact = ImpactTruth(
+        time_s=0.0,
+        frame_before=0,
+        contact_m=np.zeros(2),
+        normal=np.array(law.normal),
+        arm_m=law.arm_m,
+        impulse_xy_N_s=answer.impulse_N_s,
+        before=law.before,
+        after=answer.after,
+        mass=law.mass,
+        striker=law.striker,
+        struck=law.struck,
+        unknowns={},
+    )
+    numbers = {field: value for field, value in asdict(scene).items() if not isinstance(value, str)}
+    return Met(impact, scene.given(), numbers)
 
 
 def along(velocity_m_s: Any, direction: Any) -> float:

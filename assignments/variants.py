@@ -19,20 +19,16 @@ import json
 from collections import Counter
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
-from typing import Any
-
-import numpy as np
 
 from assignments.derive import FORMULAS
 from assignments.errors import NoVariantError
 from assignments.model import Assignment, Draw, Variant
 from assignments.textbook import textbook_of
-from assignments.theory import Met, Numbers, value_of
+from assignments.theory import Numbers, promised, value_of
 from vml_course.errors import InputError
 from vml_course.model.quantity import Quantity, quantities_of
 from vml_course.model.recording import Recording
-from vml_course.model.truth import ImpactTruth
-from vml_course.synth.scene import Scene, scene_class
+from vml_course.synth.scene import scene_class
 
 GENERATOR_VERSION = "1"  # raise it when the same secret must not be expected to give the same numbers
 REDRAW_LIMIT = 500
@@ -84,32 +80,7 @@ def impact_numbers(assignment: Assignment, parameters: Mapping[str, float]) -> N
     InputError
         When the scene refuses the parameters.
     """
-    return textbook_of(assignment.scene).numbers_of(_promised(assignment.scene, parameters))
-
-
-def _promised(name: str, parameters: Mapping[str, float]) -> Met:
-    """Return the impact that a scene promises, in closed form."""
-    settings: dict[str, Any] = dict(parameters)
-    scene = scene_class(name)(**settings)
-    if not isinstance(scene, Scene):
-        raise InputError("scene", "a scene with an impact", name)
-    law = scene.law()
-    promised = law.answer()
-    impact = ImpactTruth(
-        time_s=0.0,
-        frame_before=0,
-        contact_m=np.zeros(2),
-        normal=np.array(law.normal),
-        arm_m=law.arm_m,
-        impulse_xy_N_s=promised.impulse_N_s,
-        before=law.before,
-        after=promised.after,
-        mass=law.mass,
-        striker=law.striker,
-        struck=law.struck,
-        unknowns={},
-    )
-    return Met(impact, scene.given(), parameters)
+    return textbook_of(assignment.scene).numbers_of(promised(assignment.scene, parameters))
 
 
 def broken_rules(assignment: Assignment, parameters: Mapping[str, float]) -> Iterator[str]:

@@ -62,8 +62,8 @@ def diagnose_answer(
     if not isinstance(stated, Stated):
         return None
     ways, book = own_numbers(submission, key, questions), textbook_of(key.scene)
-    right, mistakes = book.conclusion(quantity).formula, book.mistakes_about(quantity, key.scene)
-    if any(_fits(stated, _candidate("", right, way), OWN_TOLERANCE) for way in ways):
+    right, mistakes = book.conclusion(quantity).formulas, book.mistakes_about(quantity, key.scene)
+    if any(_fits(stated, _candidate("", formula, way), OWN_TOLERANCE) for way in ways for formula in right):
         return None
     codes, basis = _from_own(stated, ways, mistakes), "own"
     if not codes:

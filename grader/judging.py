@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 from assignments.pinned_body import has_moved
 from assignments.textbook import textbook_of
-from assignments.theory import Formula
+from assignments.theory import Concluded, Formula
 from grader.arm import CODE as ARM
 from grader.arm import with_arm
 from grader.model import Asked, Factor, Finding, Outcome
@@ -151,15 +151,15 @@ def _is_paid(asked: Asked, factor: Factor) -> bool:
 def judge_concluded(asked: Asked) -> tuple[Finding, ...]:
     """Judge unit, formula and value of a number that is computed from the measured ones."""
     question = asked.question
-    formula = textbook_of(asked.key.scene).conclusion(question.id).formula
+    concluded = textbook_of(asked.key.scene).conclusion(question.id)
     stated = state(asked.submission.answer(question.id), question)
     if isinstance(stated, Unstated):
         return (_unstated(asked, stated),)
     has_unit = question.dimension != "number"
     ways = _ways(asked)
-    formula_finding = _formula(asked, stated, ways, formula)
+    formula_finding = _formula(asked, stated, ways, concluded)
     share = 1.0 - _FORMULA_SHARE - (_UNIT_SHARE if has_unit else 0.0)
-    follows = formula_finding.outcome is Outcome.RIGHT and _is_gated_in(asked, ways, formula)
+    follows = formula_finding.outcome is Outcome.RIGHT and _is_gated_in(asked, ways, concluded.formula)
     value = _concluded_value(asked, stated, question.points * share, follows=follows)
     if formula_finding.outcome is Outcome.RIGHT and not follows and value.outcome is Outcome.WRONG:
         value = replace(value, message=f"{value.message} {_NOT_FOLLOWED}")
@@ -180,13 +180,13 @@ def _arm_of(asked: Asked) -> Factor | None:
     return next((factor for factor in asked.factors if factor.codes == (ARM,)), None)
 
 
-def _formula(asked: Asked, stated: Stated, ways: tuple[OwnNumbers, ...], formula: Formula) -> Finding:
+def _formula(asked: Asked, stated: Stated, ways: tuple[OwnNumbers, ...], concluded: Concluded) -> Finding:
     question, points = asked.question, asked.question.points * _FORMULA_SHARE
     close = abs(stated.value - asked.key.values[question.id]) <= tolerance_of(asked).half_width
     numbers = {"value": stated.value}
     if ways:
-        numbers["from_own"] = ways[0].value(formula)
-    if any(follows_from(stated, way, formula) for way in ways):
+        numbers["from_own"] = ways[0].value(concluded.formula)
+    if any(follows_from(stated, way, formula) for way in ways for formula in concluded.formulas):
         message = "Right: it follows from the numbers that you wrote."
         return Finding(question.id, "formula", Outcome.RIGHT, points, points, message, numbers)
     if close:
