@@ -64,6 +64,18 @@ def names_in(scene: str, questions: Iterable[Question] = ()) -> Mapping[str, str
     return _Words({**words, "arm": "a" if is_apart else "L", **symbols})
 
 
+def vector_of(scene: str) -> tuple[str, str, str] | None:
+    """Return the vector whose angle is measured: the name of its body, and the points from and to; None without one.
+
+    >>> vector_of("soccer_kick")
+    ('leg', 'knee', 'foot')
+    """
+    kind = scene_class(scene)
+    if not issubclass(kind, Scene) or kind.vector is None:
+        return None
+    return kind.bodies[0], *kind.vector
+
+
 class _Words(dict[str, str]):
     def __missing__(self, word: str) -> str:
         return word

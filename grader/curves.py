@@ -7,11 +7,10 @@ from collections.abc import Iterator
 import numpy as np
 
 from assignments.model import AnswerKey, Assignment
-from assignments.words import names_in
+from assignments.words import names_in, vector_of
 from grader.charts import Curve
 from grader.trajectory import TrajectoryFit
 from vml_course.model.arrays import FloatArray
-from vml_course.synth.scene import Scene, scene_class
 
 
 def curves_of(fit: TrajectoryFit, key: AnswerKey, assignment: Assignment) -> Iterator[Curve]:
@@ -20,7 +19,7 @@ def curves_of(fit: TrajectoryFit, key: AnswerKey, assignment: Assignment) -> Ite
     time_ms = 1000 * (fit.time_s - (impact_s or 0.0))
     impact_ms = 0.0 if impact_s is not None else None
     px_per_m = key.truth["px_per_m"]
-    names, vector = names_in(assignment.scene), _vector(assignment.scene)
+    names, vector = names_in(assignment.scene), vector_of(assignment.scene)
     if names["struck"] in fit.points:
         own, true = (_of(fit, xy, names["struck"])[:, 0] for xy in (fit.own_m, fit.true_m))
         shift = own - true
@@ -29,18 +28,13 @@ def curves_of(fit: TrajectoryFit, key: AnswerKey, assignment: Assignment) -> Ite
             names["struck"], f"{names['Struck']}, horizontal position", "position (m)", "px", time_ms,
             own - start, true - start, shift * px_per_m, impact_ms,
         )  # fmt: skip
-    if vector and set(vector) <= set(fit.points):
-        own, true = (_angle_deg(fit, xy, vector) for xy in (fit.own_m, fit.true_m))
+    if vector and set(vector[1:]) <= set(fit.points):
+        own, true = (_angle_deg(fit, xy, vector[1:]) for xy in (fit.own_m, fit.true_m))
         difference = (own - true + 180) % 360 - 180
         yield Curve(
             "angle", f"{names['Body']}, angle from horizontal", "angle (deg)", "deg", time_ms,
             true + difference, true, difference, impact_ms,
         )  # fmt: skip
-
-
-def _vector(scene: str) -> tuple[str, str] | None:
-    kind = scene_class(scene)
-    return kind.vector if issubclass(kind, Scene) else None
 
 
 def _of(fit: TrajectoryFit, xy: FloatArray, point: str) -> FloatArray:
