@@ -54,6 +54,11 @@ class Course:
         """The list of students, `name,email`."""
         return self.folder / ROSTER_FILE
 
+    @property
+    def assignments(self) -> Path:
+        """The instructor's own assignments, one folder each, where there are any."""
+        return self.folder / "assignments"
+
     def handouts(self, assignment_id: str) -> Path:
         """Return the folder of an assignment's handouts, one folder a student."""
         return self.folder / HANDOUTS / assignment_id

@@ -20,7 +20,8 @@ from numpy.typing import NDArray
 
 from assignments.errors import AssignmentFileError
 from assignments.model import Assignment, Variant
-from assignments.words import split_symbol, tolerance_text, tracking_columns, vector_of
+from assignments.names import vector_of
+from assignments.words import split_symbol, tolerance_text, tracking_columns
 from vml_course.errors import InputError
 from vml_course.io.files import replacing
 

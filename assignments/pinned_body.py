@@ -38,7 +38,10 @@ MEASURED = (
 CONCLUDED = (
     Concluded("e", "({v_b2} − {v_f2}) / ({v_f1} − {v_b1})", lambda n: n.e, lambda met: met.impact.restitution),
     Concluded(
-        "I", "{m} {arm} ({v_b2} − {v_b1}) / ({omega1} − {omega2})", lambda n: n.I, lambda met: met.impact.inertia_kg_m2
+        "I",
+        "{m} · {arm} · ({v_b2} − {v_b1}) / ({omega1} − {omega2})",
+        lambda n: n.I,
+        lambda met: met.impact.inertia_kg_m2,
     ),
 )
 

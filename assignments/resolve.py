@@ -1,7 +1,4 @@
-"""Whether everything that an assignment names exists, and its ranges fit the scene.
-
-Check names (`check = "velocity"`) are not resolved here: checks live on the floor above.
-"""
+"""Whether everything that an assignment names exists, and its ranges fit the scene."""
 
 from __future__ import annotations
 
@@ -27,6 +24,9 @@ from vml_course.model.units import UNITS
 from vml_course.synth.scene import AnyScene, impact_scene_names, scene_class
 
 Mistakes = Iterator[InputError]
+CHECKS = ("acceleration", "angle", "angular_velocity", "conclusion", "rate", "scale", "tracking", "velocity")
+"""What the grader can judge; its checks live on the floor above, where a test holds this list."""
+
 AT_REST = 1e-9  # m/s or rad/s
 
 
@@ -88,6 +88,7 @@ def _questions(assignment: Assignment) -> Mistakes:
     for question in assignment.questions:
         key = f"question.{question.id}"
         yield from _unknown(f"{key}.needs", question.needs, [other for other in ids if other != question.id])
+        yield from _unknown(f"{key}.check", [question.check], CHECKS)
         yield from _unknown(f"{key}.dimension", [question.dimension], UNITS)
         si_unit = next(iter(UNITS.get(question.dimension, {question.unit: 1.0})))
         if question.unit != si_unit:

@@ -11,7 +11,7 @@ import math
 from collections.abc import Iterator, Mapping
 
 from assignments.model import AnswerKey, Question
-from assignments.words import names_in
+from assignments.names import names_in
 from grader.model import Factor, Submission
 from grader.own import OwnNumbers, own_numbers
 from grader.stated import Stated, state

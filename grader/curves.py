@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from assignments.model import AnswerKey, Assignment
-from assignments.words import names_in, vector_of
+from assignments.names import names_in, vector_of
 from grader.charts import Curve
 from grader.trajectory import TrajectoryFit
 from vml_course.model.arrays import FloatArray

@@ -11,9 +11,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from assignments.model import AnswerKey, Question
+from assignments.names import names_in
 from assignments.textbook import textbook_of
 from assignments.theory import Formula, Mistake, Numbers, value_of
-from assignments.words import names_in
 from grader.arm import CODE as ARM
 from grader.arm import arm_hint
 from grader.hints import hint_for

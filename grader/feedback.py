@@ -16,7 +16,8 @@ import jinja2
 from markupsafe import Markup, escape
 
 from assignments.model import AnswerKey, Assignment, Question
-from assignments.words import names_in, split_symbol
+from assignments.names import names_in
+from assignments.words import split_symbol
 from grader.charts import CurveChart, curve_chart, histogram
 from grader.checks import explanation_of
 from grader.curves import curves_of

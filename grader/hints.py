@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
+from assignments.names import filled, names_in
 from assignments.textbook import every_mistake
-from assignments.words import filled, names_in
 from grader.model import Diagnosis, Finding
 
 KINEMATIC: Mapping[str, str] = {
@@ -69,7 +69,7 @@ _USUAL_NAMES = names_in("soccer_kick")
 
 
 def about(code: str, names: Mapping[str, str] = _USUAL_NAMES) -> str:
-    """Return a mistake in a few words, with the names of `assignments.words.names_in`."""
+    """Return a mistake in a few words, with the names of `assignments.names.names_in`."""
     return KINEMATIC[code] if code in KINEMATIC else filled(every_mistake()[code].about, names)
 
 

@@ -103,7 +103,7 @@ def grade_files(
         result = _with_siblings([graded[file] for file in listed])
         unreadable = [(item.file.name, item.message) for item in result if item.status == "unreadable"]
         for assignment_id in dict.fromkeys(item.assignment_id for item in result if item.assignment_id):
-            write_class_page(course, gradebook, load_assignment(assignment_id), unreadable)
+            write_class_page(course, gradebook, load_assignment(assignment_id, course.assignments), unreadable)
     return result
 
 
@@ -190,7 +190,7 @@ def _understood(course: Course, gradebook: Gradebook, request: ReadRequest) -> t
     key = gradebook.key_for_code(claims.code, request.name)
     if not _is_signed(course, key, claims):
         raise UnknownVariantError(request.name, claims.code)
-    assignment = load_assignment(key.assignment_id)
+    assignment = load_assignment(key.assignment_id, course.assignments)
     return find_submission(book, assignment.questions, template_cells(assignment)), assignment, key
 
 
@@ -213,7 +213,7 @@ def set_points(course: Course, assignment_id: str, pid: str, adjustment: Adjustm
     ------
     InputError, UnknownNameError
     """
-    assignment = load_assignment(assignment_id)
+    assignment = load_assignment(assignment_id, course.assignments)
     with Gradebook.open(course) as gradebook:
         row = gradebook.adjust(assignment, pid, adjustment)
         write_class_page(course, gradebook, assignment)
@@ -239,7 +239,7 @@ def hand_out_to(
     NoKeyError, FileMissingError, RosterError
         When a pseudonym is unknown, or there is no class list.
     """
-    assignment = load_assignment(assignment_id)
+    assignment = load_assignment(assignment_id, course.assignments)
     with Gradebook.open(course) as gradebook:
         gradebook.students_from_roster(course.roster)
         students = {student.pid: student for student in gradebook.students()}

@@ -155,20 +155,20 @@ TEXTBOOK = Textbook(
     concluded=(
         Concluded(
             "I",
-            "{m} {v_b1} {d} / {omega2} − {m} {d}²",
+            "{m} · {v_b1} · {d} / {omega2} − {m} · {d}²",
             lambda n: n.I,
             unknown("I"),
             also=(lambda n: n.I_by_energy,),
         ),
         Concluded(
             "v1",
-            "2 ({M} {c} + {m} {d}) g (1 − cos {theta_max}) / ({m} {d} {omega2})",
+            "2 · ({M} · {c} + {m} · {d}) · {g} · (1 − cos {theta_max}) / ({m} · {d} · {omega2})",
             lambda n: n.v1,
             unknown("v1"),
         ),
         Concluded(
             "loss",
-            "½ {m} {v_b1}² − ½ {m} {v_b1} {d} {omega2}",
+            "½ · {m} · {v_b1}² − ½ · {m} · {v_b1} · {d} · {omega2}",
             lambda n: n.loss,
             _loss,
             also=(lambda n: n.brought - n.rise,),

@@ -121,10 +121,10 @@ TEXTBOOK = Textbook(
         Measured("omega2", "omega2", lambda met: met.impact.omega_after_rad_s),
     ),
     concluded=(
-        Concluded("e", "({v_g2} − {b} ({omega2}) − ({v_b2})) / {v_b1}", lambda n: n.e, unknown("e")),
+        Concluded("e", "({v_g2} − {b} · {omega2} − {v_b2}) / {v_b1}", lambda n: n.e, unknown("e")),
         Concluded(
             "I",
-            "−{b} {m} ({v_b1} − ({v_b2})) / ({omega2})",
+            "−{b} · {m} · ({v_b1} − {v_b2}) / {omega2}",
             lambda n: n.I,
             unknown("I"),
             also=(lambda n: -n.b * n.M * n.g2 / n.omega2,),

@@ -141,17 +141,17 @@ TEXTBOOK = Textbook(
         Measured("omega2", "omega2", lambda met: float(met.impact.after[0, 2])),
     ),
     concluded=(
-        Concluded("e", "−{v_b2} / ({v_b1})", lambda n: n.e, unknown("e")),
+        Concluded("e", "−{v_b2} / {v_b1}", lambda n: n.e, unknown("e")),
         Concluded(
             "mu",
-            "|{v_t2} − {v_t1}| / ({v_b2} − ({v_b1}))",
+            "|{v_t2} − {v_t1}| / ({v_b2} − {v_b1})",
             lambda n: n.mu,
             unknown("mu"),
             also=(lambda n: _spun(n, n.k),),
         ),
         Concluded(
             "s2",
-            "{v_t2} + {R} ({omega2})",
+            "{v_t2} + {R} · {omega2}",
             lambda n: n.s2,
             lambda met: float(met.impact.after[0, 0] + met.given["R"] * met.impact.after[0, 2]),
         ),

@@ -189,13 +189,13 @@ TEXTBOOK = Textbook(
         ),
         Concluded(
             "e",
-            "(({v_b2x} − ({v_a2x})) cos φ + ({v_b2y} − ({v_a2y})) sin φ) / ({v_a1x} cos φ)",
+            "(({v_b2x} − {v_a2x}) cos φ + ({v_b2y} − {v_a2y}) sin φ) / ({v_a1x} cos φ)",
             lambda n: n.e,
             unknown("e"),
         ),
         Concluded(
             "M",
-            "{m} {v_b2x} / ({v_a1x} − ({v_a2x}))",
+            "{m} · {v_b2x} / ({v_a1x} − {v_a2x})",
             lambda n: n.M,
             unknown("M"),
             also=(lambda n: n.m * (n.b2x - n.b1x) / (n.a1x - n.a2x), lambda n: n.m * (n.b2y - n.b1y) / (n.a1y - n.a2y)),
