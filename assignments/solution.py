@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from markupsafe import Markup, escape
 
 from assignments.handout import TEMPLATES, number_text, symbol_html, unit_text
 from assignments.model import AnswerKey, Assignment, Question
@@ -23,7 +24,7 @@ class Worked:
     """A conclusion: its formula in symbols and in this variant's numbers, what it gives and what was measured."""
 
     question: Question
-    symbols: str
+    symbols: Markup
     numbers: str
     value: str
     measured: str
@@ -62,14 +63,20 @@ def render_solution(assignment: Assignment, key: AnswerKey) -> str:
 
 
 def _worked(assignment: Assignment, key: AnswerKey) -> Iterator[Worked]:
-    names = _symbols(assignment)
-    numbers = _numbers(assignment, key)
+    names, numbers = _printed_symbols(assignment), _numbers(assignment, key)
     concluded = {item.id: item for item in textbook_of(assignment.scene).concluded}
     for question in assignment.questions:
         if question.id in concluded:
             text = concluded[question.id].text
             value = printed(key.values[question.id])
-            yield Worked(question, filled(text, names), filled(text, numbers), value, _found(question, key))
+            yield Worked(question, escape(text).format_map(names), filled(text, numbers), value, _found(question, key))
+
+
+def _printed_symbols(assignment: Assignment) -> Mapping[str, str]:
+    symbols = {question.id: symbol_html(question.symbol) for question in assignment.questions}
+    given = {item.id: symbol_html(item.symbol) for item in assignment.givens}
+    arm = symbol_html(names_in(assignment.scene)["arm"])
+    return {**given, "arm": arm, **of_every_id(assignment.scene, symbols)}
 
 
 def _symbols(assignment: Assignment) -> Mapping[str, str]:

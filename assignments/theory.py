@@ -47,12 +47,15 @@ class Measured:
         How an impact gives it.
     may_rest : bool
         Whether it may be left unasked where the body is at rest; it is 0 then.
+    solved : float
+        What the solver's estimate of the same symbol is multiplied with: -1 where its sign is another one.
     """
 
     id: str
     field: str
     true: Callable[[Met], float]
     may_rest: bool = False
+    solved: float = 1.0
 
 
 @dataclass(frozen=True)

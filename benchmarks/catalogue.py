@@ -56,7 +56,7 @@ def measured(assignment, count):
         for question in assignment.questions:
             if question.id in made.key.measured:
                 allowed = max(question.tolerance * abs(made.key.values[question.id]), question.floor)
-                off = abs(abs(made.key.measured[question.id]) - abs(made.key.values[question.id]))
+                off = abs(made.key.measured[question.id] - made.key.values[question.id])
                 shares.setdefault(question.id, []).append(off / allowed)
     return refused, shares
 
