@@ -188,7 +188,7 @@ _E: tuple[tuple[str, str, Formula], ...] = (
     (
         "E25",
         "sign of the incoming {struck} lost",
-        lambda n: (n.u2 - n.v2) / (n.v1 - abs(n.u1)) if n.u1 < 0 else math.nan,
+        lambda n: _turning(n, (n.u2 - n.v2) / (n.v1 - abs(n.u1))) if n.u1 < 0 else math.nan,
     ),
 )
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 
+from assignments.mistakes import ImpactNumbers
 from assignments.model import AnswerKey, Question
 from assignments.names import names_in
 from grader.model import Factor, Submission
@@ -64,11 +65,11 @@ def _from_foot(submission: Submission, questions: Mapping[str, Question]) -> Ite
 
 
 def _from_inertia(submission: Submission, key: AnswerKey, questions: Mapping[str, Question]) -> float:
-    ways = own_numbers(submission, key, questions) if "L" in key.given else ()
+    ways = own_numbers(submission, key, questions)
     inertia = state(submission.answer("I"), questions["I"]) if "I" in questions else None
-    if not ways or not isinstance(inertia, Stated):
+    numbers = ways[0].numbers if ways else None
+    if not isinstance(numbers, ImpactNumbers) or not isinstance(inertia, Stated):  # only a body on a pivot has an arm
         return math.nan
-    numbers = ways[0].numbers
     per_metre = numbers.m * (numbers.u2 - numbers.u1)
     return inertia.value * (numbers.omega1 - numbers.omega2) / per_metre if per_metre else math.nan
 
