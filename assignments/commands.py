@@ -8,6 +8,8 @@ from typing import Annotated
 
 import typer
 
+from assignments import assignment_commands
+
 
 def register(app: typer.Typer) -> None:
     """Add this package's commands to `app`."""
@@ -15,6 +17,7 @@ def register(app: typer.Typer) -> None:
     course.command("new")(new)
     course.callback()(_group)
     app.add_typer(course, name="course")
+    assignment_commands.register(app)
 
 
 def _group() -> None:

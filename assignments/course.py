@@ -19,6 +19,7 @@ from pydantic import ValidationError
 from assignments.course_file import CourseFile
 from assignments.errors import CourseError
 from assignments.load import named_mistakes
+from assignments.locate import line_of
 from assignments.secret import SECRET_FILE, read_secret, write_secret
 from assignments.terms import Calendar, Extension
 from vml_course.errors import FileMissingError
@@ -97,6 +98,11 @@ class Course:
     def roster(self) -> Path:
         """The list of students, `name,email`, in the folder of this machine: it holds names."""
         return self.folder / ROSTER_FILE
+
+    @property
+    def assignments(self) -> Path:
+        """The instructor's own assignments, one folder each, where there are any."""
+        return self.folder / "assignments"
 
     def handouts(self, assignment_id: str) -> Path:
         """Return the folder of an assignment's handouts, where the course is a folder of this machine."""
@@ -212,7 +218,8 @@ def _understood(text: str, path: str) -> CourseFile:
         raise CourseError(path, "TOML in UTF-8", error) from error
     except ValidationError as error:
         first = named_mistakes(error, content)[0]
-        raise CourseError(f"{path}, {first.name}", first.expected, first.got, first.hint) from error
+        line = line_of(text, first.name, str(first.got))
+        raise CourseError(f"{path}, line {line}, {first.name}", first.expected, first.got, first.hint) from error
 
 
 def _write_new(path: Path, text: str) -> None:

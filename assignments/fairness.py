@@ -118,7 +118,7 @@ def solve(track: Track, truth: Truth, assignment: Assignment, variant: Variant) 
     ------
     VmlError
     """
-    options: dict[str, Any] = dict(assignment.solve)
+    options: dict[str, Any] = {**truth.declared, **assignment.solve}
     stick_m = given_values(assignment, variant)[assignment.stick.given]
     motion = calibrate(stick_px(truth, assignment), stick_m).apply(track)
     return impact_model(assignment.model).solve(motion, truth.given, ImpactOptions(**options))

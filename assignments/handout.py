@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from assignments.errors import AssignmentFileError
 from assignments.model import Assignment, Variant
+from assignments.names import vector_of
 from assignments.words import split_symbol, tolerance_text, tracking_columns
 from vml_course.errors import InputError
 from vml_course.io.files import replacing
@@ -158,10 +159,10 @@ def render_handout(
     )
     environment.filters.update(symbol=symbol_html, number=number_text, unit=unit_text, tolerance=tolerance_text)
     told = {"assignment": assignment, "code": variant.code, "given": given, "picture": picture}
-    columns = tracking_columns(assignment.points)
+    columns, vector = tracking_columns(assignment.points), vector_of(assignment.scene)
     try:
         template = environment.get_template(assignment.handout_template)
-        return template.render(**told, columns=columns, video=video, due=due)
+        return template.render(**told, columns=columns, vector=vector, video=video, due=due)
     except TemplateError as error:
         raise AssignmentFileError(
             f"{assignment.id}/{assignment.handout_template}",

@@ -11,10 +11,12 @@ from typing import Any
 import numpy as np
 
 from assignments.model import AnswerKey, Assignment, Variant
+from assignments.textbook import textbook_of
+from assignments.theory import Met
 from assignments.variants import given_values
 from vml_course.errors import InputError
 from vml_course.model.solution import ImpactSolution
-from vml_course.model.truth import ImpactTruth, Truth
+from vml_course.model.truth import Truth
 
 
 def answer_key(
@@ -39,13 +41,14 @@ def answer_key(
         When a question asks for something that no truth is known of.
     """
     estimates = measured.estimates if measured else {}
+    signs = {item.id: item.solved for item in textbook_of(truth.scene).measured}
     return AnswerKey(
         assignment_id=assignment.id,
         student=variant.student,
         code=variant.code,
         values={question.id: true_value(question.id, truth) for question in assignment.questions},
         expected_sd={symbol: estimate.sd for symbol, estimate in estimates.items()},
-        measured={symbol: estimate.value for symbol, estimate in estimates.items()},
+        measured={symbol: signs.get(symbol, 1.0) * estimate.value for symbol, estimate in estimates.items()},
         given=given_values(assignment, variant),
         truth=_further(truth) | _stick(truth, assignment),
         video_sha256=video_sha256,
@@ -60,42 +63,38 @@ def answer_key(
         time_s=truth.time_s,
         xy_px=truth.xy_px,
         parameters=dict(truth.parameters),
+        scene=truth.scene,
     )
 
 
 # ---------------------------------------------------------------- what is true
 
-_TRUE: Mapping[str, Callable[[Truth], float]] = {
+_OF_THE_CAMERA: Mapping[str, Callable[[Truth], float]] = {
     "px_per_m": lambda truth: truth.camera.px_per_m,
     "fps": lambda truth: truth.camera.fps,
-    "omega1": lambda truth: truth.met.omega_before_rad_s,
-    "omega2": lambda truth: truth.met.omega_after_rad_s,
-    "v_f1": lambda truth: truth.met.omega_before_rad_s * truth.given["L"],
-    "v_f2": lambda truth: truth.met.omega_after_rad_s * truth.given["L"],
-    "v_b1": lambda truth: _along(truth.met, truth.met.struck_before_m_s),
-    "v_b2": lambda truth: _along(truth.met, truth.met.struck_after_m_s),
-    "e": lambda truth: truth.met.restitution,
-    "I": lambda truth: truth.met.inertia_kg_m2,
 }
 
-ANSWERABLE = tuple(_TRUE)
-"""Ids of the questions whose true value is known; a new one is a line above."""
+
+def answerable(scene: str) -> tuple[str, ...]:
+    """Return the ids of the questions whose true value is known in a scene."""
+    return (*_OF_THE_CAMERA, *textbook_of(scene).answerable)
 
 
 def true_value(question: str, truth: Truth) -> float:
     """Return the true answer to a question, in SI units.
 
-    Speeds of the striking point are along its path, those of the struck body along the contact normal;
-    both are positive in the direction of the strike.
+    Signs and directions are those of the scene's textbook.
 
     Raises
     ------
     InputError
         When no truth is known of that question.
     """
-    if question not in _TRUE:
-        raise InputError(f"question.{question}", f"one of {', '.join(ANSWERABLE)}", repr(question))
-    return float(_TRUE[question](truth))
+    if question in _OF_THE_CAMERA:
+        return float(_OF_THE_CAMERA[question](truth))
+    if question not in answerable(truth.scene):
+        raise InputError(f"question.{question}", f"one of {', '.join(answerable(truth.scene))}", repr(question))
+    return textbook_of(truth.scene).true(question, Met(truth.met, truth.given, truth.parameters))
 
 
 def stick_px(truth: Truth, assignment: Assignment) -> tuple[float, ...]:
@@ -103,16 +102,8 @@ def stick_px(truth: Truth, assignment: Assignment) -> tuple[float, ...]:
     return (*truth.mark_px(assignment.stick.tail), *truth.mark_px(assignment.stick.head))
 
 
-def _along(impact: ImpactTruth, velocity_m_s: Any) -> float:
-    return float(np.dot(velocity_m_s, impact.normal))
-
-
 def _further(truth: Truth) -> dict[str, float]:
     impact = truth.met
-    since_s = impact.time_s - truth.time_s[impact.frame_before]  # never interpolated across the impact
-    leg_rad = float(truth.leg_angle_rad[impact.frame_before] + impact.omega_before_rad_s * since_s)
-    path_rad = leg_rad + math.copysign(math.pi / 2, impact.omega_before_rad_s)
-    normal_rad = math.atan2(impact.normal[1], impact.normal[0])
     return {
         "px_per_m": truth.camera.px_per_m,
         "fps": truth.camera.fps,
@@ -123,9 +114,18 @@ def _further(truth: Truth) -> dict[str, float]:
         "impulse_N_s": impact.impulse_N_s,
         "t_impact_s": impact.time_s,
         "frame_before": float(impact.frame_before),
-        "theta_impact_rad": leg_rad,
-        "tilt_rad": math.remainder(normal_rad - path_rad, 2 * math.pi),
+        **(_angles(truth) if len(truth.leg_angle_rad) else {}),
     }
+
+
+def _angles(truth: Truth) -> dict[str, float]:
+    """Return the striker's angle at the impact, and how far the normal is turned from its mark's path."""
+    impact = truth.met
+    since_s = impact.time_s - truth.time_s[impact.frame_before]  # never interpolated across the impact
+    leg_rad = float(truth.leg_angle_rad[impact.frame_before] + impact.omega_before_rad_s * since_s)
+    path_rad = leg_rad + math.copysign(math.pi / 2, impact.omega_before_rad_s)
+    normal_rad = math.atan2(impact.normal[1], impact.normal[0])
+    return {"theta_impact_rad": leg_rad, "tilt_rad": math.remainder(normal_rad - path_rad, 2 * math.pi)}
 
 
 def _stick(truth: Truth, assignment: Assignment) -> dict[str, float]:

@@ -16,6 +16,7 @@ from assignments.schema import AssignmentFile
 from vml_course.errors import InputError, UnknownNameError
 
 FILE = "assignment.toml"
+TO_BEGIN_WITH = "soccer-kick"
 
 
 def catalogue() -> Path:
@@ -24,12 +25,20 @@ def catalogue() -> Path:
 
 
 def assignment_ids() -> tuple[str, ...]:
-    """Return the assignments of the catalogue: one folder each."""
-    return tuple(sorted(folder.name for folder in catalogue().iterdir() if (folder / FILE).is_file()))
+    """Return the assignments of the catalogue: one folder each, the one to begin with first."""
+    names = (folder.name for folder in catalogue().iterdir() if (folder / FILE).is_file())
+    return tuple(sorted(names, key=lambda name: (name != TO_BEGIN_WITH, name)))
 
 
-def load_assignment(assignment_id: str) -> Assignment:
-    """Read one assignment of the catalogue.
+def load_assignment(assignment: str, also: Path | None = None) -> Assignment:
+    """Read an assignment: one of the catalogue, or an instructor's own folder.
+
+    Parameters
+    ----------
+    assignment : str
+        An id, or the path of a folder with an `assignment.toml`.
+    also : Path, optional
+        A folder of further assignments, such as a course's; one there comes before the catalogue's of the same id.
 
     Raises
     ------
@@ -38,9 +47,23 @@ def load_assignment(assignment_id: str) -> Assignment:
     AssignmentFileError
         When its file has mistakes.
     """
-    if assignment_id not in assignment_ids():
-        raise UnknownNameError("assignment", assignment_id, assignment_ids())
-    return load_folder(catalogue() / assignment_id)
+    return load_folder(assignment_folder(assignment, also))
+
+
+def assignment_folder(assignment: str, also: Path | None = None) -> Path:
+    """Return where an assignment is, as in `load_assignment`.
+
+    Raises
+    ------
+    UnknownNameError
+    """
+    is_id = Path(assignment).name == assignment and not assignment.startswith(".")
+    places = [folder / assignment for folder in (also, catalogue()) if folder and is_id]
+    for place in (*places, Path(assignment)):
+        if (place / FILE).is_file():
+            return place.resolve()
+    known = [*assignment_ids(), *(folder.parent.name for folder in sorted(also.glob(f"*/{FILE}")))] if also else None
+    raise UnknownNameError("assignment", assignment, known or assignment_ids())
 
 
 def load_folder(folder: Path) -> Assignment:

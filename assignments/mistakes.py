@@ -1,8 +1,9 @@
-"""What wrong answers look like: common mistakes as formulas of the numbers that a student works with.
+"""A body on a pivot that meets another one: its numbers, and what wrong answers look like.
 
-Two use this one list. The variant generator draws again until common mistakes give different numbers,
+What the textbooks of a fixed pivot and of a hammer share. Mistakes are formulas of the numbers that a student
+works with, and two use this one list. The variant generator draws again until common mistakes give different numbers,
 and the grader's diagnosis compares a wrong answer with them, evaluated on the student's own velocities.
-The sentences that a student reads live with the grader, under the same codes.
+The sentences that a student reads are in `pinned_hints.py`.
 
 Codes and formulas follow the catalogue of eccentric-impact mistakes of this project (E: coefficient of
 restitution, I: moment of inertia); a letter after the number marks a variety of the same mistake.
@@ -13,11 +14,11 @@ are not here.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Literal
 
-from vml_course.errors import UnknownNameError
+from assignments.pinned_hints import PINNED_HINTS
+from assignments.theory import Mistake
 
 FEET = 3.28084  # in a metre
 DEGREES = 180.0 / math.pi
@@ -46,6 +47,8 @@ class ImpactNumbers:
         Scale of the picture in px/m.
     tilt_rad : float
         Angle between the contact normal and the path of the striking point.
+    mark : float
+        Distance from the axis to the tracked mark, where that is another one than L (a door's edge).
     """
 
     v1: float
@@ -59,6 +62,7 @@ class ImpactNumbers:
     D: float = math.nan
     S: float = math.nan
     tilt_rad: float = 0.0
+    mark: float = math.nan
 
     @property
     def e(self) -> float:
@@ -106,21 +110,9 @@ def numbers_of_impact(
 Formula = Callable[[ImpactNumbers], float]
 
 
-@dataclass(frozen=True)
-class Mistake:
-    """One common mistake: what was done, and the number that it leads to."""
-
-    code: str
-    quantity: Literal["e", "I"]
-    about: str
-    formula: Formula
-
-    def value(self, numbers: ImpactNumbers) -> float:
-        """Return the wrong value; NaN where the mistake cannot be made with these numbers."""
-        try:
-            return float(self.formula(numbers))
-        except (ZeroDivisionError, OverflowError, ValueError):
-            return math.nan
+def _turning(n: ImpactNumbers, value: float) -> float:
+    """Return a value that is another mistake's where the body stood still before."""
+    return value if n.omega1 else math.nan
 
 
 def _mean_cosine(omega: float, window_s: float) -> float:
@@ -163,47 +155,47 @@ def _spin(n: ImpactNumbers) -> float:
 
 _E: tuple[tuple[str, str, Formula], ...] = (
     ("E1", "inverted: approach over separation", lambda n: 1 / n.e),
-    ("E2", "speed of the foot after the impact left out", lambda n: n.u2 / (n.v1 - n.u1)),
-    ("E3", "sign of the foot's speed after the impact", lambda n: (n.u2 + n.v2) / (n.v1 - n.u1)),
-    ("E4", "speeds of the foot before and after swapped", lambda n: (n.u2 - n.v1) / (n.v2 - n.u1)),
-    ("E5", "foot and ball swapped in one of the differences", lambda n: -n.e),
-    ("E6", "ratio of the changes, foot over ball", lambda n: (n.v1 - n.v2) / (n.u2 - n.u1)),
-    ("E6b", "ratio of the changes, ball over foot", lambda n: (n.u2 - n.u1) / (n.v1 - n.v2)),
+    ("E2", "speed of the {striker} after the impact left out", lambda n: n.u2 / (n.v1 - n.u1)),
+    ("E3", "sign of the {striker}'s speed after the impact", lambda n: (n.u2 + n.v2) / (n.v1 - n.u1)),
+    ("E4", "speeds of the {striker} before and after swapped", lambda n: (n.u2 - n.v1) / (n.v2 - n.u1)),
+    ("E5", "{striker} and {struck} swapped in one of the differences", lambda n: -n.e),
+    ("E6", "ratio of the changes, {striker} over {struck}", lambda n: (n.v1 - n.v2) / (n.u2 - n.u1)),
+    ("E6b", "ratio of the changes, {struck} over {striker}", lambda n: (n.u2 - n.u1) / (n.v1 - n.v2)),
     ("E7", "squared", lambda n: n.e**2),
     ("E8", "square root", lambda n: math.sqrt(n.e)),
     ("E9", "ratio of kinetic energies", _energy_ratio),
-    ("E10", "angular velocity used as the foot's speed", lambda n: (n.u2 - n.omega2) / (n.omega1 - n.u1)),
-    ("E11", "ball in px/s, foot in m/s", lambda n: _ball_scaled(n, n.S)),
-    ("E12", "foot in ft/s, ball in m/s", lambda n: _foot_scaled(n, FEET)),
-    ("E12b", "ball in ft/s, foot in m/s", lambda n: _ball_scaled(n, FEET)),
+    ("E10", "angular velocity used as the {striker}'s speed", lambda n: (n.u2 - n.omega2) / (n.omega1 - n.u1)),
+    ("E11", "{struck} in px/s, {striker} in m/s", lambda n: _ball_scaled(n, n.S)),
+    ("E12", "{striker} in ft/s, {struck} in m/s", lambda n: _foot_scaled(n, FEET)),
+    ("E12b", "{struck} in ft/s, {striker} in m/s", lambda n: _ball_scaled(n, FEET)),
     ("E13", "angular velocity in deg/s", lambda n: _foot_scaled(n, DEGREES)),
     ("E13b", "angular velocity in revolutions per minute", lambda n: _foot_scaled(n, RPM)),
-    ("E14", "sign of the angular velocity (y axis down)", lambda n: (n.u2 + n.v2) / (-n.v1 - n.u1)),
+    ("E14", "sign of the angular velocity (y axis down)", lambda n: _turning(n, (n.u2 + n.v2) / (-n.v1 - n.u1))),
     ("E15", "total speeds instead of components along the normal", _tilted),
     ("E16", "a frame inside the contact, 80 % of the impulse done", lambda n: 0.8 * (1 + n.e) - 1),
     ("E16b", "a frame inside the contact, 90 % of the impulse done", lambda n: 0.9 * (1 + n.e) - 1),
-    ("E17", "horizontal component of the foot over 20 ms", lambda n: _horizontal(n, 0.020)),
-    ("E17b", "horizontal component of the foot over 40 ms", lambda n: _horizontal(n, 0.040)),
+    ("E17", "horizontal component of the {striker} over 20 ms", lambda n: _horizontal(n, 0.020)),
+    ("E17b", "horizontal component of the {striker} over 40 ms", lambda n: _horizontal(n, 0.040)),
     ("E18", "lightly smoothed across the impact", lambda n: _smoothed(n, 0.10)),
     ("E18b", "smoothed across the impact", lambda n: _smoothed(n, 0.25)),
     ("E18c", "difference taken across the impact", lambda n: _smoothed(n, 0.50)),
-    ("E19", "foot after over foot before", lambda n: n.v2 / n.v1),
-    ("E20", "separation over the ball's speed after", lambda n: (n.u2 - n.v2) / n.u2),
-    ("E21", "separation over the foot's speed after", lambda n: (n.u2 - n.v2) / n.v2),
-    ("E22", "change of the foot's speed over its speed before", lambda n: (n.v1 - n.v2) / n.v1),
-    ("E24", "foot's speed taken a ball radius too near the knee", lambda n: _foot_scaled(n, 1 - n.D / 2 / n.L)),
-    ("E24b", "foot's speed taken a ball radius too far from the knee", lambda n: _foot_scaled(n, 1 + n.D / 2 / n.L)),
+    ("E19", "{striker} after over {striker} before", lambda n: n.v2 / n.v1),
+    ("E20", "separation over the {struck}'s speed after", lambda n: (n.u2 - n.v2) / n.u2),
+    ("E21", "separation over the {striker}'s speed after", lambda n: (n.u2 - n.v2) / n.v2),
+    ("E22", "change of the {striker}'s speed over its speed before", lambda n: (n.v1 - n.v2) / n.v1),
+    ("E24", "{striker}'s speed taken R too near the {pivot}", lambda n: _foot_scaled(n, 1 - n.D / 2 / n.L)),
+    ("E24b", "{striker}'s speed taken R too far from the {pivot}", lambda n: _foot_scaled(n, 1 + n.D / 2 / n.L)),
     (
         "E25",
-        "sign of the incoming ball lost",
-        lambda n: (n.u2 - n.v2) / (n.v1 - abs(n.u1)) if n.u1 < 0 else math.nan,
+        "sign of the incoming {struck} lost",
+        lambda n: _turning(n, (n.u2 - n.v2) / (n.v1 - abs(n.u1))) if n.u1 < 0 else math.nan,
     ),
 )
 
 _I: tuple[tuple[str, str, Formula], ...] = (
-    ("I1", "arm left out, or change of foot speed used as change of angular velocity", lambda n: n.I / n.L),
+    ("I1", "arm left out, or change of {striker} speed used as change of angular velocity", lambda n: n.I / n.L),
     ("I2", "one arm too many", lambda n: n.I * n.L),
-    ("I4", "effective mass at the foot instead of moment of inertia", lambda n: n.I / n.L**2),
+    ("I4", "effective mass at the {striker} instead of moment of inertia", lambda n: n.I / n.L**2),
     ("I5", "arm in feet", lambda n: n.I * FEET),
     ("I5b", "arm in feet, squared", lambda n: n.I * FEET**2),
     ("I5c", "arm in centimetres", lambda n: n.I * 100),
@@ -212,30 +204,34 @@ _I: tuple[tuple[str, str, Formula], ...] = (
     ("I6b", "mass in pounds", lambda n: n.I * POUNDS),
     ("I6c", "weight instead of mass", lambda n: n.I * STANDARD_GRAVITY),
     ("I6d", "mass of a match ball (0.45 kg) instead of the given one", lambda n: n.I * MATCH_BALL_KG / n.m),
-    ("I7", "ball in px/s", lambda n: n.I * n.S),
-    ("I7b", "ball in px/s and arm in px", lambda n: n.I * n.S**2),
+    ("I7", "{struck} in px/s", lambda n: n.I * n.S),
+    ("I7b", "{struck} in px/s and arm in px", lambda n: n.I * n.S**2),
     ("I8", "angular velocity in deg/s", lambda n: n.I / DEGREES),
     ("I8b", "angular velocity in revolutions per minute", lambda n: n.I / RPM),
-    ("I9", "arm to the far side of the ball's centre, L + R", lambda n: n.I * (1 + n.D / 2 / n.L)),
+    ("I9", "arm to the far side of the {struck}'s centre, L + R", lambda n: n.I * (1 + n.D / 2 / n.L)),
     ("I9b", "arm L - R", lambda n: n.I * (1 - n.D / 2 / n.L)),
     ("I9c", "arm L + D, diameter taken for radius", lambda n: n.I * (1 + n.D / n.L)),
-    ("I10", "spin of the ball added", lambda n: n.I + _spin(n)),
+    ("I10", "spin of the {struck} added", lambda n: n.I + _spin(n)),
     ("I11", "before and after swapped", lambda n: -n.I),
-    ("I12", "ball's own moment of inertia instead of m L^2", _spin),
-    ("I12b", "ball's moment of inertia as m R^2", lambda n: 2.5 * _spin(n)),
-    ("I12c", "ball's own moment of inertia with the diameter", lambda n: 2 * _spin(n)),
-    ("I13", "foot and ball stuck together", lambda n: n.m * n.L**2 * n.omega2 / (n.omega1 - n.omega2)),
+    ("I12", "{struck}'s own moment of inertia instead of m L^2", _spin),
+    ("I12b", "{struck}'s moment of inertia as m R^2", lambda n: 2.5 * _spin(n)),
+    ("I12c", "{struck}'s own moment of inertia with the diameter", lambda n: 2 * _spin(n)),
+    ("I13", "{striker} and {struck} stuck together", lambda n: n.m * n.L**2 * n.omega2 / (n.omega1 - n.omega2)),
     ("I14", "kinetic energy conserved", lambda n: n.m * (n.u2**2 - n.u1**2) / (n.omega1**2 - n.omega2**2)),
-    ("I15", "speed of separation for the ball's change", lambda n: n.I * (n.u2 - n.v2) / (n.u2 - n.u1)),
-    ("I15b", "ball after minus foot before for the ball's change", lambda n: n.I * (n.u2 - n.v1) / (n.u2 - n.u1)),
-    ("I16", "sum of the angular velocities", lambda n: n.gain / (n.omega1 + n.omega2)),
+    ("I15", "speed of separation for the {struck}'s change", lambda n: n.I * (n.u2 - n.v2) / (n.u2 - n.u1)),
+    (
+        "I15b",
+        "{struck} after minus {striker} before for the {struck}'s change",
+        lambda n: n.I * (n.u2 - n.v1) / (n.u2 - n.u1),
+    ),
+    ("I16", "sum of the angular velocities", lambda n: _turning(n, n.gain / (n.omega1 + n.omega2))),
     ("I17", "angular velocity before only", lambda n: n.gain / n.omega1),
-    ("I17b", "angular velocity after only", lambda n: n.gain / n.omega2),
-    ("I18", "about the middle of the leg, taken as a rod", lambda n: n.I / 4),
+    ("I17b", "angular velocity after only", lambda n: _turning(n, n.gain / n.omega2)),
+    ("I18", "about the middle of the {body}, taken as a rod", lambda n: n.I / 4),
     ("I19", "about the hip", lambda n: n.I * (1 + THIGH_M / n.L)),
     (
         "I20",
-        "total ball speed instead of its component",
+        "total {struck} speed instead of its component",
         lambda n: n.I / math.cos(n.tilt_rad) if n.tilt_rad else math.nan,
     ),
     ("I23", "half", lambda n: n.I / 2),
@@ -243,31 +239,15 @@ _I: tuple[tuple[str, str, Formula], ...] = (
     ("I24", "multiplied by e", lambda n: n.I * n.e),
     ("I24b", "divided by e", lambda n: n.I / n.e),
     ("I25", "multiplied by 1 + e", lambda n: n.I * (1 + n.e)),
-    ("I27", "m L^2 of the ball", lambda n: n.m * n.L**2),
-    ("I28", "m L^2 of the ball added", lambda n: n.I + n.m * n.L**2),
-    ("I28b", "m L^2 of the ball subtracted", lambda n: n.I - n.m * n.L**2),
+    ("I27", "m L^2 of the {struck}", lambda n: n.m * n.L**2),
+    ("I28", "m L^2 of the {struck} added", lambda n: n.I + n.m * n.L**2),
+    ("I28b", "m L^2 of the {struck} subtracted", lambda n: n.I - n.m * n.L**2),
 )
 
+_ONLY = {"I6d": "soccer_kick", "I18": "soccer_kick", "I19": "soccer_kick"}  # a match ball, a shin, a hip
+
 MISTAKES: Mapping[str, Mistake] = {
-    **{code: Mistake(code, "e", about, formula) for code, about, formula in _E},
-    **{code: Mistake(code, "I", about, formula) for code, about, formula in _I},
+    code: Mistake(code, quantity, about, formula, PINNED_HINTS.get(code, ""), _ONLY.get(code, ""))
+    for quantity, rows in (("e", _E), ("I", _I))
+    for code, about, formula in rows
 }
-
-
-def mistakes_named(codes: Iterable[str]) -> tuple[Mistake, ...]:
-    """Return the mistakes with these codes, in this order.
-
-    Raises
-    ------
-    UnknownNameError
-    """
-    codes = tuple(codes)
-    for code in codes:
-        if code not in MISTAKES:
-            raise UnknownNameError("mistake", code, MISTAKES)
-    return tuple(MISTAKES[code] for code in codes)
-
-
-def mistakes_about(quantity: str) -> tuple[Mistake, ...]:
-    """Return the mistakes that lead to a wrong `e` or a wrong `I`."""
-    return tuple(mistake for mistake in MISTAKES.values() if mistake.quantity == quantity)

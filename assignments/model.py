@@ -42,7 +42,7 @@ class Separation:
     Attributes
     ----------
     mistakes : tuple of str
-        Codes of `assignments.mistakes`.
+        Codes of the textbook's mistakes.
     apart : float
         Smallest relative distance between any two of their values.
     """
@@ -140,6 +140,8 @@ class Assignment:
         The points to track.
     handout_template : str
         File name in `folder`.
+    goals : tuple of str
+        What a student can do afterwards, one sentence each.
     version : str
         Of the assignment's text and numbers; it goes into every workbook.
     """
@@ -165,6 +167,7 @@ class Assignment:
     stick: Stick = Stick("bar_left", "bar_right", "bar")
     solve: Mapping[str, str | float] = field(default_factory=dict)
     words: Mapping[str, str] = field(default_factory=dict)
+    goals: tuple[str, ...] = ()
 
     @property
     def total_points(self) -> float:
@@ -245,6 +248,10 @@ class AnswerKey:
     time_s : float array, shape (n,)
     xy_px : float array, shape (n, p, 2)
         The true trajectory.
+    parameters : mapping of str to float
+        Of the scene.
+    scene : str
+        Its name; it says which textbook answers are judged by. Keys of the first version had none: all were kicks.
     """
 
     assignment_id: str
@@ -262,6 +269,7 @@ class AnswerKey:
     time_s: FloatArray
     xy_px: FloatArray
     parameters: Mapping[str, float] = field(default_factory=dict)
+    scene: str = "soccer_kick"
 
     def __post_init__(self) -> None:
         axes = Axes()

@@ -1,23 +1,22 @@
-"""Whether everything that an assignment names exists, and its ranges fit the scene.
-
-Check names (`check = "velocity"`) are not resolved here: checks live on the floor above.
-"""
+"""Whether everything that an assignment names exists, and its ranges fit the scene."""
 
 from __future__ import annotations
 
 import dataclasses
+import math
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from assignments.derive import FORMULAS, arguments_of
-from assignments.key import ANSWERABLE
-from assignments.mistakes import MISTAKES
+from assignments.key import answerable
 from assignments.model import Assignment, Draw
+from assignments.textbook import textbook_of
+from assignments.theory import promised
 from vml_course.errors import InputError, UnknownNameError, VmlError
 from vml_course.kinetics.impact_model import ImpactOptions
-from vml_course.kinetics.models import model_names
+from vml_course.kinetics.models import impact_model, model_names
 from vml_course.model.choice import Choice, choices_of
 from vml_course.model.quantity import Quantity, quantities_of
 from vml_course.model.recording import Recording
@@ -25,6 +24,10 @@ from vml_course.model.units import UNITS
 from vml_course.synth.scene import AnyScene, impact_scene_names, scene_class
 
 Mistakes = Iterator[InputError]
+CHECKS = ("acceleration", "angle", "angular_velocity", "conclusion", "rate", "scale", "tracking", "velocity")
+"""What the grader can judge; its checks live on the floor above, where a test holds this list."""
+
+AT_REST = 1e-9  # m/s or rad/s
 
 
 def mistakes_in(assignment: Assignment) -> Mistakes:
@@ -33,20 +36,59 @@ def mistakes_in(assignment: Assignment) -> Mistakes:
     yield from _unknown("model", [assignment.model], model_names())
     yield from _questions(assignment)
     yield from _givens(assignment)
-    yield from _unknown("separate.mistakes", assignment.separation.mistakes, MISTAKES)
     if not (Path(assignment.folder) / assignment.handout_template).is_file():
         yield InputError("handout", f"a file in {assignment.id}/", repr(assignment.handout_template))
     if assignment.scene in impact_scene_names():
+        yield from _physics(assignment)
         yield from _scene(assignment, scene_class(assignment.scene))
+
+
+def _physics(assignment: Assignment) -> Mistakes:
+    """Yield what the scene's textbook does not know, and what is missing for what it concludes."""
+    model = scene_class(assignment.scene).model
+    if assignment.model != model and assignment.model in model_names():
+        yield InputError("model", f"{model!r}, that of the scene {assignment.scene}", repr(assignment.model))
+    book, asked = textbook_of(assignment.scene), [question.id for question in assignment.questions]
+    yield from _unknown("question.id", asked, answerable(assignment.scene))
+    yield from _unknown("separate.mistakes", assignment.separation.mistakes, book.mistakes)
+    told = [given.id for given in assignment.givens]
+    for symbol in impact_model(model).given:
+        if symbol not in told:
+            yield InputError("given", f"one with the id {symbol!r}, from which the answers follow", ", ".join(told))
+    yield from _of_other_points(assignment)
+    fields = {item.field: 1.0 for item in book.measured if item.id in asked} | book.resting(asked)
+    if not any(book.complete(fields, dict.fromkeys(told, 1.0))):
+        needed = ", ".join(item.id for item in book.measured if not item.may_rest)
+        yield InputError("question", f"questions from which the conclusions follow, of {needed}", ", ".join(asked))
+
+
+def _of_other_points(assignment: Assignment) -> Mistakes:
+    """Yield questions about a number that is not the one of the formulas, and unasked bodies that do not rest."""
+    usual, fixed = quantities_of(scene_class(assignment.scene)), assignment.fixed
+    book = textbook_of(assignment.scene)
+    try:
+        met = promised(assignment.scene, {name: value for name, value in fixed.items() if name in usual})
+    except InputError:  # out of range, which is said elsewhere
+        return
+    numbers, asked = book.numbers_of(met), {question.id for question in assignment.questions}
+    resting = book.resting(asked)
+    for item in book.measured:
+        used = getattr(numbers, item.field)
+        if item.id in asked and not math.isclose(item.true(met), used, rel_tol=1e-9, abs_tol=1e-9):
+            same = [other.id for other in book.measured if other.field == item.field and other.id != item.id]
+            yield InputError(f"question.{item.id}", f"{' or '.join(same)}, that of the point that is hit", item.id)
+        if resting.get(item.field) == 0.0 and abs(used) > AT_REST:
+            resting.pop(item.field)
+            yield InputError("question", f"a question {item.id}: the body is not at rest", ", ".join(sorted(asked)))
 
 
 def _questions(assignment: Assignment) -> Mistakes:
     ids = [question.id for question in assignment.questions]
     yield from _twice("question", ids)
-    yield from _unknown("question.id", ids, ANSWERABLE)
     for question in assignment.questions:
         key = f"question.{question.id}"
         yield from _unknown(f"{key}.needs", question.needs, [other for other in ids if other != question.id])
+        yield from _unknown(f"{key}.check", [question.check], CHECKS)
         yield from _unknown(f"{key}.dimension", [question.dimension], UNITS)
         si_unit = next(iter(UNITS.get(question.dimension, {question.unit: 1.0})))
         if question.unit != si_unit:

@@ -95,6 +95,7 @@ class AssignmentFile(_Table):
     model: Text
     points: tuple[Text, ...] = Field(min_length=1)
     handout: FileName
+    goals: tuple[Text, ...] = ()
     stick: StickTable
     camera: dict[str, Finite] = {}
     recording: dict[str, Finite | str] = {}
@@ -127,6 +128,7 @@ class AssignmentFile(_Table):
 _SAME_NAME = (
     "title",
     "summary",
+    "goals",
     "scene",
     "model",
     "points",

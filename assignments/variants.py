@@ -16,15 +16,16 @@ import hashlib
 import hmac
 import itertools
 import json
-import math
 from collections import Counter
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
 
 from assignments.derive import FORMULAS
 from assignments.errors import NoVariantError
-from assignments.mistakes import ImpactNumbers, mistakes_named, numbers_of_impact
 from assignments.model import Assignment, Draw, Variant
+from assignments.textbook import textbook_of
+from assignments.theory import Numbers, promised, value_of
+from vml_course.errors import InputError
 from vml_course.model.quantity import Quantity, quantities_of
 from vml_course.model.recording import Recording
 from vml_course.synth.scene import scene_class
@@ -71,19 +72,32 @@ def given_values(assignment: Assignment, variant: Variant) -> dict[str, float]:
     }
 
 
-def impact_numbers(assignment: Assignment, parameters: Mapping[str, float]) -> ImpactNumbers:
-    """Return the velocities that these scene parameters lead to, by the closed form."""
-    by_symbol = {q.symbol: parameters[name] for name, q in _quantities(assignment).items() if q.symbol}
-    tilt_rad = math.radians(parameters.get("normal_tilt_deg", 0.0))
-    by_symbol["omega1"] = parameters["omega_before_rad_s"]
-    return numbers_of_impact(by_symbol, tilt_rad=tilt_rad)
+def impact_numbers(assignment: Assignment, parameters: Mapping[str, float]) -> Numbers:
+    """Return the numbers that these scene parameters lead to, by the scene's own closed form.
+
+    Raises
+    ------
+    InputError
+        When the scene refuses the parameters.
+    """
+    return textbook_of(assignment.scene).numbers_of(promised(assignment.scene, parameters))
 
 
 def broken_rules(assignment: Assignment, parameters: Mapping[str, float]) -> Iterator[str]:
-    """Yield why a draw is rejected: limits first, then answers that lie too close together."""
-    yield from _beyond(assignment, parameters)
-    if assignment.separation.mistakes:
-        yield from _too_close(assignment, impact_numbers(assignment, parameters))
+    """Yield why a draw is rejected: limits first, then what cannot be asked, then answers too close together."""
+    beyond = list(_beyond(assignment, parameters))
+    if beyond:  # a scene refuses such numbers
+        yield from beyond
+        return
+    try:
+        numbers = impact_numbers(assignment, parameters)
+    except InputError as error:
+        yield f"{error.name} refused by the scene"
+        return
+    unfit = textbook_of(assignment.scene).unfit(numbers)
+    if unfit:
+        yield unfit
+    yield from _too_close(assignment, numbers)
 
 
 # ---------------------------------------------------------------- numbers from the secret
@@ -188,15 +202,16 @@ def _beyond(assignment: Assignment, parameters: Mapping[str, float]) -> Iterator
             yield f"{name} beyond its limits"
 
 
-def _too_close(assignment: Assignment, numbers: ImpactNumbers) -> Iterator[str]:
-    tolerance = {question.id: question.tolerance for question in assignment.questions}
-    for quantity, truth in (("e", numbers.e), ("I", numbers.I)):
-        wrong = {
-            m.code: m.value(numbers) for m in mistakes_named(assignment.separation.mistakes) if m.quantity == quantity
-        }
+def _too_close(assignment: Assignment, numbers: Numbers) -> Iterator[str]:
+    book, asked = textbook_of(assignment.scene), {question.id: question for question in assignment.questions}
+    for concluded in book.concluded:
+        truth = value_of(concluded.formula, numbers)
+        tolerance = asked[concluded.id].tolerance if concluded.id in asked else 0.0
+        codes = [code for code in assignment.separation.mistakes if book.mistakes[code].quantity == concluded.id]
+        wrong = {code: book.mistakes[code].value(numbers) for code in codes}
         for code, value in wrong.items():
-            if abs(value - truth) <= tolerance.get(quantity, 0.0) * abs(truth):
-                yield f"{code} inside the tolerance of {quantity}"
+            if abs(value - truth) <= tolerance * abs(truth):
+                yield f"{code} inside the tolerance of {concluded.id}"
         for (one, a), (other, b) in itertools.combinations(wrong.items(), 2):
             if abs(a - b) < assignment.separation.apart * max(abs(a), abs(b)):
                 yield f"{one} and {other} too close"

@@ -10,7 +10,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 
+from assignments.mistakes import ImpactNumbers
 from assignments.model import AnswerKey, Question
+from assignments.names import names_in
 from grader.model import Factor, Submission
 from grader.own import OwnNumbers, own_numbers
 from grader.stated import Stated, state
@@ -46,10 +48,10 @@ def with_arm(way: OwnNumbers, factor: Factor) -> OwnNumbers:
 
 def arm_hint(factor: Factor, key: AnswerKey) -> str:
     """Say which arm the numbers fit; both arm and L are the student's own and given, no truth."""
-    length = key.given["L"]
+    length, striker = key.given["L"], names_in(key.scene)["Striker"]
     name = next((f" ({name})" for name, value in _named(key) if abs(factor.value / value - 1) <= _NAME_WITHIN), "")
     return (
-        f"Foot speed and I fit an arm of {factor.value * length:.3g} m{name} instead of L = {length:.4g} m. "
+        f"{striker} speed and I fit an arm of {factor.value * length:.3g} m{name} instead of L = {length:.4g} m. "
         "Use the L of your handout, in metres; it is counted once."
     )
 
@@ -65,9 +67,9 @@ def _from_foot(submission: Submission, questions: Mapping[str, Question]) -> Ite
 def _from_inertia(submission: Submission, key: AnswerKey, questions: Mapping[str, Question]) -> float:
     ways = own_numbers(submission, key, questions)
     inertia = state(submission.answer("I"), questions["I"]) if "I" in questions else None
-    if not ways or not isinstance(inertia, Stated):
+    numbers = ways[0].numbers if ways else None
+    if not isinstance(numbers, ImpactNumbers) or not isinstance(inertia, Stated):  # only a body on a pivot has an arm
         return math.nan
-    numbers = ways[0].numbers
     per_metre = numbers.m * (numbers.u2 - numbers.u1)
     return inertia.value * (numbers.omega1 - numbers.omega2) / per_metre if per_metre else math.nan
 

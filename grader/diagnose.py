@@ -10,22 +10,23 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-from assignments.mistakes import ImpactNumbers, mistakes_about
 from assignments.model import AnswerKey, Question
+from assignments.names import names_in
+from assignments.textbook import textbook_of
+from assignments.theory import Formula, Mistake, Numbers, value_of
 from grader.arm import CODE as ARM
 from grader.arm import arm_hint
 from grader.hints import hint_for
 from grader.model import Diagnosis, Factor, Outcome, Submission
-from grader.own import OwnNumbers, own_numbers, true_numbers, value_of
+from grader.own import OwnNumbers, own_numbers, true_numbers
 from grader.stated import Stated, state
 
 OWN_TOLERANCE = 0.005
 FINE_TOLERANCE = 0.0005  # beyond the printed digits
 LARGEST_GROUP = 3
 TRUTH_TOLERANCE: Mapping[str, float] = {"e": 0.03, "I": 0.08}
+_USUAL_TRUTH_TOLERANCE = 0.05
 _CLEAR = 3.0  # a best fit on the truth must be this much closer than the next
-
-_RIGHT = {"e": lambda n: n.e, "I": lambda n: n.I}
 
 
 @dataclass(frozen=True)
@@ -56,21 +57,24 @@ def _factor_hint(factor: Factor, key: AnswerKey) -> str:
 def diagnose_answer(
     quantity: str, submission: Submission, key: AnswerKey, questions: Mapping[str, Question]
 ) -> Diagnosis | None:
-    """Name the mistake in `e` or `I`; None where it is right, unreadable, or nothing explains it clearly."""
+    """Name the mistake in a conclusion; None where it is right, unreadable, or nothing explains it clearly."""
     stated = state(submission.answer(quantity), questions[quantity])
     if not isinstance(stated, Stated):
         return None
-    ways = own_numbers(submission, key, questions)
-    codes, basis = _from_own(quantity, stated, ways), "own"
-    if not codes and not any(_fits(stated, _right(quantity, way), OWN_TOLERANCE) for way in ways):
-        codes, basis = _from_truth(quantity, stated.value, key, questions[quantity].tolerance), "truth"
+    ways, book = own_numbers(submission, key, questions), textbook_of(key.scene)
+    right, mistakes = book.conclusion(quantity).formulas, book.mistakes_about(quantity, key.scene)
+    if any(_fits(stated, _candidate("", formula, way), OWN_TOLERANCE) for way in ways for formula in right):
+        return None
+    codes, basis = _from_own(stated, ways, mistakes), "own"
+    if not codes:
+        codes, basis = _from_truth(stated.value, key, questions[quantity], mistakes), "truth"
     if not 1 <= len(codes) <= LARGEST_GROUP:
         return None
-    return Diagnosis(quantity, codes, hint_for(codes), basis, (quantity,))
+    return Diagnosis(quantity, codes, hint_for(codes, names_in(key.scene, questions.values())), basis, (quantity,))
 
 
-def _right(quantity: str, way: OwnNumbers) -> Candidate:
-    return Candidate("", way.value(_RIGHT[quantity]), way.rounding(_RIGHT[quantity]))
+def _candidate(code: str, formula: Formula, way: OwnNumbers) -> Candidate:
+    return Candidate(code, way.value(formula), way.rounding(formula))
 
 
 def _fits(stated: Stated, candidate: Candidate, tolerance: float) -> bool:
@@ -84,22 +88,14 @@ def _misfit(stated: Stated, candidate: Candidate, tolerance: float) -> float:
     return distance / allowed if allowed > 0 and math.isfinite(distance) else math.inf
 
 
-def _from_own(quantity: str, stated: Stated, ways: Sequence[OwnNumbers]) -> tuple[str, ...]:
+def _from_own(stated: Stated, ways: Sequence[OwnNumbers], mistakes: Sequence[Mistake]) -> tuple[str, ...]:
     """Match on each way to read the student's own numbers; the first that explains the answer counts."""
     for way in ways:
-        if _fits(stated, _right(quantity, way), OWN_TOLERANCE):
-            return ()
-    for way in ways:
-        codes = matching(stated, _candidates(quantity, way))
+        candidates = (_candidate(mistake.code, mistake.formula, way) for mistake in mistakes)
+        codes = matching(stated, (candidate for candidate in candidates if math.isfinite(candidate.value)))
         if codes:
             return codes
     return ()
-
-
-def _candidates(quantity: str, way: OwnNumbers) -> list[Candidate]:
-    found = ((m.code, m.formula) for m in mistakes_about(quantity))
-    values = (Candidate(code, way.value(formula), way.rounding(formula)) for code, formula in found)
-    return [candidate for candidate in values if math.isfinite(candidate.value)]
 
 
 def matching(stated: Stated, candidates: Iterable[Candidate]) -> tuple[str, ...]:
@@ -112,22 +108,22 @@ def matching(stated: Stated, candidates: Iterable[Candidate]) -> tuple[str, ...]
     return ()
 
 
-def _from_truth(quantity: str, value: float, key: AnswerKey, tolerance: float) -> tuple[str, ...]:
+def _from_truth(value: float, key: AnswerKey, question: Question, mistakes: Sequence[Mistake]) -> tuple[str, ...]:
     """Match on the true numbers, which the student's measurement only resembles: only clear cases count."""
-    truth = key.values[quantity]
-    if abs(value - truth) <= 2 * tolerance * abs(truth):
+    truth = key.values[question.id]
+    if abs(value - truth) <= 2 * question.tolerance * abs(truth):
         return ()
-    numbers = true_numbers(key)
-    fits = sorted(_distances(quantity, value, numbers))
-    close = [(distance, code) for distance, code in fits if distance <= TRUTH_TOLERANCE[quantity]]
+    fits = sorted(_distances(value, true_numbers(key), mistakes))
+    near = TRUTH_TOLERANCE.get(question.id, _USUAL_TRUTH_TOLERANCE)
+    close = [(distance, code) for distance, code in fits if distance <= near]
     if not close:
         return ()
-    rivals = [code for distance, code in fits if distance <= max(_CLEAR * close[0][0], TRUTH_TOLERANCE[quantity])]
+    rivals = [code for distance, code in fits if distance <= max(_CLEAR * close[0][0], near)]
     return tuple(rivals) if len(rivals) <= LARGEST_GROUP else ()
 
 
-def _distances(quantity: str, value: float, numbers: ImpactNumbers) -> Iterable[tuple[float, str]]:
-    for mistake in mistakes_about(quantity):
+def _distances(value: float, numbers: Numbers, mistakes: Iterable[Mistake]) -> Iterable[tuple[float, str]]:
+    for mistake in mistakes:
         expected = value_of(mistake.formula, numbers)
         if math.isfinite(expected) and expected != 0:
             yield abs(value / expected - 1), mistake.code

@@ -16,6 +16,7 @@ import jinja2
 from markupsafe import Markup, escape
 
 from assignments.model import AnswerKey, Assignment, Question
+from assignments.names import names_in
 from assignments.words import split_symbol
 from grader.charts import CurveChart, curve_chart, histogram
 from grader.checks import explanation_of
@@ -225,6 +226,7 @@ def class_page(
     ids = [question.id for question in assignment.questions]
     shares = [row.points / row.out_of for row in rows if row.out_of]
     mistakes = Counter(code for row in rows for code in row.mistakes)
+    names = names_in(assignment.scene, assignment.questions)
     return _template("class.html.j2").render(
         title=f"{assignment.title}: class",
         assignment=assignment,
@@ -238,7 +240,7 @@ def class_page(
         adjusted=[row for row in rows if row.adjustments],
         bars=histogram(shares),
         facility=[(symbol(q.symbol), q.label, _facility(rows, q.id)) for q in assignment.questions],
-        mistakes=[(code, about(code), count) for code, count in mistakes.most_common()],
+        mistakes=[(code, about(code, names), count) for code, count in mistakes.most_common()],
         unreadable=[(file, reason.removeprefix(f"{file}: ")) for file, reason in unreadable],
         points_text=points_text,
     )

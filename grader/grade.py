@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 from assignments.model import AnswerKey, Assignment, Question
 from assignments.sheets import ANSWERS
+from assignments.textbook import textbook_of
 from assignments.words import symbol_text
 from grader.checks import check_named
 from grader.diagnose import diagnose_answer, diagnose_factors, needs_diagnosis
@@ -21,7 +22,6 @@ GRADER_VERSION = "2"
 TRACKING = Question("tracking", "Tracking table", "", "number", "", 0.0, "tracking", 0.0, "measurement")
 """The question behind the tracking table, for an assignment that gives it no points of its own."""
 
-_EXPLAINED = ("e", "I")
 _FLAGS = {
     "macros": "The workbook carries macros.",
     "links": "The workbook has links to other files.",
@@ -105,7 +105,7 @@ def _diagnoses(
     submission: Submission, key: AnswerKey, questions: dict[str, Question], findings: Iterable[Finding]
 ) -> Iterator[Diagnosis]:
     findings = tuple(findings)
-    for quantity in _EXPLAINED:
+    for quantity in (concluded.id for concluded in textbook_of(key.scene).concluded):
         outcomes = [(f.aspect, f.outcome) for f in findings if f.question_id == quantity]
         if quantity in questions and needs_diagnosis(outcomes):
             diagnosis = diagnose_answer(quantity, submission, key, questions)

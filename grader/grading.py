@@ -211,7 +211,7 @@ class _Marker:
         result = _with_siblings(graded)
         unreadable = [(item.file.name, item.message) for item in result if item.status == "unreadable"]
         for assignment_id in dict.fromkeys(item.assignment_id for item in result if item.assignment_id):
-            write_class_page(self._course, self._book, load_assignment(assignment_id), unreadable)
+            write_class_page(self._course, self._book, self._load(assignment_id), unreadable)
         return result
 
     def _mark(self, receipt: Receipt, data: bytes) -> Graded:
@@ -239,8 +239,11 @@ class _Marker:
         key = self._book.key_for_code(claims.code, request.name)
         if not is_signed(self._course, key, claims):
             raise UnknownVariantError(request.name, claims.code)
-        assignment = load_assignment(key.assignment_id)
+        assignment = self._load(key.assignment_id)
         return find_submission(book, assignment.questions, template_cells(assignment)), assignment, key
+
+    def _load(self, assignment_id: str) -> Assignment:
+        return load_assignment(assignment_id, self._course.assignments)
 
     def _received(self, receipt: Receipt, terms: Terms) -> str:
         """Return when it counts as handed in; a platform's word was settled when it was collected."""

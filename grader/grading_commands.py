@@ -48,8 +48,8 @@ def collect(
     from assignments.load import load_assignment
     from grader.collect import collect as take_in
 
-    load_assignment(assignment)
     opened = open_course(course)
+    load_assignment(assignment, opened.assignments)
     with resumable(), progress("collecting") as show:
         found = take_in(opened, assignment, download, platform=lms, received=received, dry_run=dry_run, progress=show)
     if as_json:

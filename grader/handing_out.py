@@ -89,7 +89,7 @@ def hand_out_to(  # noqa: PLR0913 - to whom, and by whom
     InputError, FileMissingError, RosterError
         When a pseudonym is unknown, or there is no class list.
     """
-    assignment = load_assignment(assignment_id)
+    assignment = load_assignment(assignment_id, course.assignments)
     with Gradebook.open(course) as gradebook:
         students = _enrolled(course, gradebook)
         results = hand_out(
@@ -116,7 +116,7 @@ def expect(course: Course, assignment_id: str, pids: Sequence[str] = ()) -> list
     ------
     InputError, FileMissingError, RosterError
     """
-    assignment = load_assignment(assignment_id)
+    assignment = load_assignment(assignment_id, course.assignments)
     students, kept, newcomers = dict[str, Student](), set[str](), [Student("", p.name) for p in _listed(course)]
     if is_begun(course):
         with Gradebook.open(course) as gradebook:
@@ -144,7 +144,7 @@ def plan_for(course: Course, assignment_id: str, pids: Sequence[str] = (), *, pr
     ------
     InputError, FileMissingError, RosterError, NoVariantError
     """
-    assignment = load_assignment(assignment_id)
+    assignment = load_assignment(assignment_id, course.assignments)
     with Gradebook.open(course) as gradebook:
         chosen = _chosen(pids, _enrolled(course, gradebook))
     cost = kept_cost(cost_file(course, assignment))

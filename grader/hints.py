@@ -1,7 +1,7 @@
 """What a student reads when a mistake is recognised: a hint where to look, not a verdict.
 
-Codes E* and I* are those of `assignments.mistakes`; codes K* are slips of units, scale, rate and sign that
-show in the velocities or in the tracking table.
+Codes K* are slips of units, scale, rate and sign that show in the velocities or in the tracking table; all others
+are those of the textbooks, which bring their own sentences.
 """
 
 from __future__ import annotations
@@ -9,7 +9,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
-from assignments.mistakes import MISTAKES
+from assignments.names import filled, names_in
+from assignments.textbook import every_mistake
 from grader.model import Diagnosis, Finding
 
 KINEMATIC: Mapping[str, str] = {
@@ -35,60 +36,7 @@ KINEMATIC: Mapping[str, str] = {
     "K12": "another length than L as the arm",
 }
 
-HINTS: Mapping[str, str] = {
-    "E1": "Your e looks turned over: separation belongs above the line. e = (v_b2 − v_f2) / (v_f1 − v_b1).",
-    "E2": "The foot still moves after the impact. Does your separation speed contain v_f2?",
-    "E3": "Look at the sign of v_f2: the separation is the ball's velocity minus the foot's.",
-    "E4": "It looks as if the foot's speeds before and after changed places.",
-    "E5": "The size fits, the sign does not. Take ball minus foot above the line and foot minus ball below it.",
-    "E6": "You seem to have divided the changes of velocity, foot by ball. e compares relative velocities.",
-    "E6b": "You seem to have divided the changes of velocity, ball by foot. e compares relative velocities.",
-    "E7": "Your value looks like e squared. e is a ratio of velocities, not of energies.",
-    "E8": "Your value looks like a square root of e. e is the ratio of velocities itself.",
-    "E9": "Your value looks like a ratio of kinetic energies. e is a ratio of relative velocities.",
-    "E10": "It looks as if ω was used where the speed of the foot, ω L, belongs.",
-    "E11": "The ball's velocity looks as if it were in px/s and the foot's in m/s. Calibrate both.",
-    "E12": "The foot's speed looks as if it were in feet per second and the ball's in metres.",
-    "E12b": "The ball's velocity looks as if it were in feet per second and the foot's in metres.",
-    "E13": "It looks as if ω was in degrees per second when you multiplied it by L. Use rad/s.",
-    "E13b": "It looks as if ω was in revolutions per minute when you multiplied it by L. Use rad/s.",
-    "E14": "The sign of ω looks reversed. Pixels count downwards; angles are positive counter-clockwise with y up.",
-    "E19": "Your value looks like v_f2 / v_f1. The ball's velocity belongs into e as well.",
-    "E20": "You divided by the ball's velocity after. The approach speed before, v_f1 − v_b1, belongs below the line.",
-    "E21": "You divided by the foot's speed after. The approach speed before, v_f1 − v_b1, belongs below the line.",
-    "E22": "Your value looks like the foot's loss of speed over its speed before. e compares relative velocities.",
-    "I1": "The arm L seems to be missing: what is conserved is the moment of momentum about the knee, m L v.",
-    "I2": "There seems to be one L too many. The ball's moment of momentum about the knee is m L v.",
-    "I4": "Your value looks like an effective mass at the foot, I / L²: m v where m L v belongs, or v_f for ω.",
-    "I5": "The arm looks as if it were in feet.",
-    "I5b": "The arm looks as if it were in feet, and squared.",
-    "I5c": "The arm looks as if it were in centimetres.",
-    "I5d": "The arm looks as if it were in centimetres, and squared.",
-    "I6": "The ball's mass looks as if it were in grams. Use kg.",
-    "I6b": "The ball's mass looks as if it were in pounds. Use kg.",
-    "I6c": "It looks as if the ball's weight was used for its mass.",
-    "I6d": "It looks as if 0.45 kg was used for the ball. Your ball has its own mass: see your handout.",
-    "I7": "The ball's velocity looks as if it were in px/s. Calibrate it.",
-    "I7b": "Ball and arm look as if they were in pixels. Calibrate both.",
-    "I8": "ω looks as if it were in degrees per second. Use rad/s.",
-    "I8b": "ω looks as if it were in revolutions per minute. Use rad/s.",
-    "I9": "The arm looks like L + R. The foot strikes at the distance L from the knee.",
-    "I9b": "The arm looks like L − R. The foot strikes at the distance L from the knee.",
-    "I9c": "The arm looks like L + D. The foot strikes at the distance L from the knee.",
-    "I10": "You seem to have added a spin of the ball. The impact gives it none.",
-    "I11": "The sign suggests that before and after were swapped in one of the differences.",
-    "I13": "Your value fits a ball that stays on the foot. It leaves faster than the foot: use v_b2.",
-    "I14": "Your value fits conservation of energy, which is lost. Moment of momentum about the knee is conserved.",
-    "I15": "The ball's change of velocity is v_b2 − v_b1; you seem to have taken the separation speed v_b2 − v_f2.",
-    "I15b": "The ball's change of velocity is v_b2 − v_b1; you seem to have subtracted the foot's speed.",
-    "I16": "It looks as if ω₁ and ω₂ were added. The leg loses ω₁ − ω₂.",
-    "I17": "Only ω₁ seems to be used. The leg loses ω₁ − ω₂.",
-    "I17b": "Only ω₂ seems to be used. The leg loses ω₁ − ω₂.",
-    "I18": "Your value looks like one about the middle of the leg. It is asked about the knee.",
-    "I19": "The arm looks as if it were taken from the hip. It is asked about the knee.",
-    "I27": "Your value looks like m L² of the ball. It is the leg's moment of inertia that is asked.",
-    "I28": "m L² of the ball seems to be added. The leg's own moment of inertia is asked.",
-    "I28b": "m L² of the ball seems to be subtracted. The leg's own moment of inertia is asked.",
+_KINEMATIC_HINTS: Mapping[str, str] = {
     "K1": "Your velocities look not calibrated: still in pixels per second. Divide by the scale in px/m.",
     "K1b": "The scale seems to be used the wrong way round: pixels divided by px/m give metres.",
     "K1c": "Your velocities look like pixels per frame. Divide by the scale, multiply by the frame rate.",
@@ -112,17 +60,26 @@ HINTS: Mapping[str, str] = {
 }
 
 
-def about(code: str) -> str:
-    """Return a mistake in a few words."""
-    return KINEMATIC[code] if code in KINEMATIC else MISTAKES[code].about
+HINTS: Mapping[str, str] = {
+    **{code: mistake.hint for code, mistake in every_mistake().items() if mistake.hint},
+    **_KINEMATIC_HINTS,
+}
+
+_USUAL_NAMES = names_in("soccer_kick")
 
 
-def hint_for(codes: Iterable[str]) -> str:
+def about(code: str, names: Mapping[str, str] = _USUAL_NAMES) -> str:
+    """Return a mistake in a few words, with the names of `assignments.names.names_in`."""
+    return KINEMATIC[code] if code in KINEMATIC else filled(every_mistake()[code].about, names)
+
+
+def hint_for(codes: Iterable[str], names: Mapping[str, str] = _USUAL_NAMES) -> str:
     """Return the sentence for one mistake, or for a group that the numbers cannot tell apart."""
     codes = tuple(codes)
     if len(codes) == 1:
-        return HINTS.get(codes[0], f"Your value fits this slip: {about(codes[0])}. Check that step.")
-    return f"Your numbers fit more than one slip; check each: {'; '.join(about(code) for code in codes)}."
+        usual = f"Your value fits this slip: {about(codes[0], names)}. Check that step."
+        return filled(HINTS[codes[0]], names) if codes[0] in HINTS else usual
+    return f"Your numbers fit more than one slip; check each: {'; '.join(about(code, names) for code in codes)}."
 
 
 # ---------------------------------------------------------------- one hint for one cause

@@ -6,7 +6,9 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from assignments.mistakes import ImpactNumbers
+from assignments.pinned_body import has_moved
+from assignments.textbook import textbook_of
+from assignments.theory import Concluded, Formula
 from grader.arm import CODE as ARM
 from grader.arm import with_arm
 from grader.model import Asked, Factor, Finding, Outcome
@@ -146,17 +148,18 @@ def _is_paid(asked: Asked, factor: Factor) -> bool:
 # ---------------------------------------------------------------- a number that follows from others
 
 
-def judge_concluded(asked: Asked, formula: Callable[[ImpactNumbers], float]) -> tuple[Finding, ...]:
+def judge_concluded(asked: Asked) -> tuple[Finding, ...]:
     """Judge unit, formula and value of a number that is computed from the measured ones."""
     question = asked.question
+    concluded = textbook_of(asked.key.scene).conclusion(question.id)
     stated = state(asked.submission.answer(question.id), question)
     if isinstance(stated, Unstated):
         return (_unstated(asked, stated),)
     has_unit = question.dimension != "number"
     ways = _ways(asked)
-    formula_finding = _formula(asked, stated, ways, formula)
+    formula_finding = _formula(asked, stated, ways, concluded)
     share = 1.0 - _FORMULA_SHARE - (_UNIT_SHARE if has_unit else 0.0)
-    follows = formula_finding.outcome is Outcome.RIGHT and _is_gated_in(asked, ways, formula)
+    follows = formula_finding.outcome is Outcome.RIGHT and _is_gated_in(asked, ways, concluded.formula)
     value = _concluded_value(asked, stated, question.points * share, follows=follows)
     if formula_finding.outcome is Outcome.RIGHT and not follows and value.outcome is Outcome.WRONG:
         value = replace(value, message=f"{value.message} {_NOT_FOLLOWED}")
@@ -177,15 +180,13 @@ def _arm_of(asked: Asked) -> Factor | None:
     return next((factor for factor in asked.factors if factor.codes == (ARM,)), None)
 
 
-def _formula(
-    asked: Asked, stated: Stated, ways: tuple[OwnNumbers, ...], formula: Callable[[ImpactNumbers], float]
-) -> Finding:
+def _formula(asked: Asked, stated: Stated, ways: tuple[OwnNumbers, ...], concluded: Concluded) -> Finding:
     question, points = asked.question, asked.question.points * _FORMULA_SHARE
     close = abs(stated.value - asked.key.values[question.id]) <= tolerance_of(asked).half_width
     numbers = {"value": stated.value}
     if ways:
-        numbers["from_own"] = ways[0].value(formula)
-    if any(follows_from(stated, way, formula) for way in ways):
+        numbers["from_own"] = ways[0].value(concluded.formula)
+    if any(follows_from(stated, way, formula) for way in ways for formula in concluded.formulas):
         message = "Right: it follows from the numbers that you wrote."
         return Finding(question.id, "formula", Outcome.RIGHT, points, points, message, numbers)
     if close:
@@ -203,7 +204,7 @@ def _formula(
     return Finding(question.id, "formula", Outcome.WRONG, 0.0, points, message, numbers)
 
 
-def follows_from(stated: Stated, way: OwnNumbers, formula: Callable[[ImpactNumbers], float]) -> bool:
+def follows_from(stated: Stated, way: OwnNumbers, formula: Formula) -> bool:
     """Tell whether a value is what `formula` gives with the student's own numbers."""
     expected = way.value(formula)
     if math.isnan(expected):
@@ -212,16 +213,15 @@ def follows_from(stated: Stated, way: OwnNumbers, formula: Callable[[ImpactNumbe
     return abs(stated.value - expected) <= half_width
 
 
-def _is_gated_in(asked: Asked, ways: tuple[OwnNumbers, ...], formula: Callable[[ImpactNumbers], float]) -> bool:
+def _is_gated_in(asked: Asked, ways: tuple[OwnNumbers, ...], formula: Formula) -> bool:
     """Tell whether the own numbers are a possible impact: a trivial one must not make the rest easy.
 
     Where one wrong arm explains them, their e may be anything: half of L alone can lift it over 2.
     """
     n = ways[0].numbers
-    moved = abs(n.omega1 - n.omega2) > 0.01 * abs(n.omega1) and n.u1 != n.u2 and n.v1 != n.v2
     if _arm_of(asked) is not None:
-        return moved
-    return moved and ways[0].value(formula) > 0 and 0 < ways[0].value(lambda numbers: numbers.e) <= 1.2
+        return has_moved(n)
+    return textbook_of(asked.key.scene).is_possible(n) and ways[0].value(formula) > 0
 
 
 def _concluded_value(asked: Asked, stated: Stated, points: float, *, follows: bool) -> Finding:

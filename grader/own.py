@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from assignments.mistakes import ImpactNumbers
 from assignments.model import AnswerKey, Question
+from assignments.textbook import textbook_of
+from assignments.theory import Formula, Numbers, Textbook, value_of
 from grader.model import Submission
 from grader.stated import Stated, state
 
-Formula = Callable[[ImpactNumbers], float]
-
-_FIELDS = {"v_f1": "v1", "v_f2": "v2", "v_b1": "u1", "v_b2": "u2", "omega1": "omega1", "omega2": "omega2"}
 _LARGEST_ROUNDING = 0.05  # numbers rounded more coarsely than this prove nothing about a formula
 
 
@@ -21,7 +19,7 @@ _LARGEST_ROUNDING = 0.05  # numbers rounded more coarsely than this prove nothin
 class OwnNumbers:
     """What a student wrote as an impact, with half of the last written digit of each number."""
 
-    numbers: ImpactNumbers
+    numbers: Numbers
     half_units: Mapping[str, float]
 
     def value(self, formula: Formula) -> float:
@@ -44,60 +42,34 @@ class OwnNumbers:
         return replace(self, numbers=replace(self.numbers, L=length))
 
 
-def _after(formula: Formula, numbers: ImpactNumbers) -> Formula:
+def _after(formula: Formula, numbers: Numbers) -> Formula:
     return lambda _: formula(numbers)
 
 
-def value_of(formula: Formula, numbers: ImpactNumbers) -> float:
-    """Return a formula's value, NaN where it divides by zero."""
-    try:
-        value = float(formula(numbers))
-    except (ZeroDivisionError, OverflowError, ValueError, TypeError):
-        return math.nan
-    return value if math.isfinite(value) else math.nan
-
-
-def true_numbers(key: AnswerKey) -> ImpactNumbers:
+def true_numbers(key: AnswerKey) -> Numbers:
     """Return the impact as it was."""
-    return _impact(key, {symbol: key.values.get(id_, math.nan) for id_, symbol in _FIELDS.items()})
+    book = textbook_of(key.scene)
+    known = {item.field: key.values[item.id] for item in book.measured if item.id in key.values}
+    return _record(book, key, {**book.resting(key.values), **known})
 
 
 def own_numbers(submission: Submission, key: AnswerKey, questions: Mapping[str, Question]) -> tuple[OwnNumbers, ...]:
     """Return the student's numbers in each way in which they can be read.
 
-    The foot's speed may come from its own cells or from omega L, and omega from its own cells or from v / L;
-    each complete way is returned, the cells as they stand first. Nothing is returned when too little was written.
+    A number may come from its own cell or, as v = omega L, from another one: the textbook knows the ways, the cells as
+    they stand first. Nothing is returned when too little was written.
     """
+    book = textbook_of(key.scene)
     stated: dict[str, Stated] = {}
-    for id_, symbol in _FIELDS.items():
-        reading = state(submission.answer(id_), questions[id_]) if id_ in questions else None
+    for item in book.measured:
+        reading = state(submission.answer(item.id), questions[item.id]) if item.id in questions else None
         if isinstance(reading, Stated):
-            stated[symbol] = reading
-    values = {symbol: reading.value for symbol, reading in stated.items()}
-    halves = {symbol: reading.half_unit for symbol, reading in stated.items()}
-    return tuple(
-        OwnNumbers(_impact(key, way), {name: halves.get(name, 0.0) for name in _FIELDS.values()})
-        for way in _ways(values, key.given.get("L", math.nan))
-    )
+            stated[item.field] = reading
+    values = {**book.resting(questions), **{field: reading.value for field, reading in stated.items()}}
+    halves = {item.field: stated[item.field].half_unit if item.field in stated else 0.0 for item in book.measured}
+    return tuple(OwnNumbers(_record(book, key, way), halves) for way in book.complete(values, key.given))
 
 
-def _ways(values: Mapping[str, float], length: float) -> Iterator[dict[str, float]]:
-    if not {"u1", "u2"} <= values.keys():
-        return
-    has_foot, has_omega = {"v1", "v2"} <= values.keys(), {"omega1", "omega2"} <= values.keys()
-    if has_foot and has_omega:
-        yield dict(values)
-    if has_omega:
-        yield {**values, "v1": values["omega1"] * length, "v2": values["omega2"] * length}
-    if has_foot:
-        yield {**values, "omega1": values["v1"] / length, "omega2": values["v2"] / length}
-
-
-def _impact(key: AnswerKey, values: Mapping[str, float]) -> ImpactNumbers:
-    return ImpactNumbers(
-        **values,
-        m=key.given.get("m", math.nan),
-        L=key.given.get("L", math.nan),
-        D=key.given.get("D", math.nan),
-        S=key.truth.get("px_per_m", key.values.get("px_per_m", math.nan)),
-    )
+def _record(book: Textbook, key: AnswerKey, values: Mapping[str, float]) -> Numbers:
+    px_per_m = key.truth.get("px_per_m", key.values.get("px_per_m", math.nan))
+    return book.record(values, key.given, px_per_m)

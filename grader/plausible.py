@@ -21,12 +21,15 @@ FACTOR = 30.0
 RANGES: Mapping[str, tuple[float, float]] = {
     "velocity": (0.0, 300.0),
     "angular_velocity": (0.0, 1000.0),
-    "restitution": (0.0, 1.5),
+    "acceleration": (0.0, 1000.0),
+    "number": (0.0, 1.5),
     "inertia": (0.0, 100.0),
+    "mass": (0.0, 100.0),
+    "energy": (0.0, 1e4),
     "scale": (1.0, 1e5),
     "rate": (10.0, 1e5),
 }
-"""Sizes that a quantity can have, in SI units, by the name of its check."""
+"""Sizes that a quantity can have, in SI units, by its dimension."""
 
 _TWO_WAYS = re.compile(r"(?<![0-9.,])([1-9][0-9]{0,2}),([0-9]{3})(?![0-9.,])")
 
@@ -54,7 +57,7 @@ def settle_readings(
 
 def _meant(answer: Answer, question: Question, truth: float) -> str:
     found = _TWO_WAYS.findall(answer.text)
-    if len(found) != 1 or question.check not in RANGES:
+    if len(found) != 1 or question.dimension not in RANGES:
         return ""
     readings = [replace(answer, read_as=_TWO_WAYS.sub(form, answer.text)) for form in (r"\1.\2", r"\1\2")]
     plausible = list(_plausible(readings, question, truth))
@@ -62,7 +65,7 @@ def _meant(answer: Answer, question: Question, truth: float) -> str:
 
 
 def _plausible(readings: list[Answer], question: Question, truth: float) -> Iterator[str]:
-    low, high = RANGES[question.check]
+    low, high = RANGES[question.dimension]
     for answer in readings:
         stated = state(answer, question)
         if isinstance(stated, Stated) and not stated.in_pixels and low <= abs(stated.value) <= high:

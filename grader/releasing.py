@@ -61,7 +61,7 @@ def release_grades(course: Course, assignment_id: str, *, who: str, dry_run: boo
     NothingGradedError
         When nobody has a grade.
     """
-    load_assignment(assignment_id)
+    load_assignment(assignment_id, course.assignments)
     with Gradebook.open(course) as book:
         rows = book.rows(assignment_id)
         if not rows:

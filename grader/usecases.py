@@ -22,7 +22,7 @@ def set_points(course: Course, assignment_id: str, pid: str, adjustment: Adjustm
     ------
     InputError, UnknownNameError
     """
-    assignment = load_assignment(assignment_id)
+    assignment = load_assignment(assignment_id, course.assignments)
     with Gradebook.open(course) as gradebook:
         row = gradebook.adjust(assignment, pid, adjustment)
         write_class_page(course, gradebook, assignment)

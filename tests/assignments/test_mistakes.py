@@ -7,8 +7,7 @@ import math
 
 import pytest
 
-from assignments.mistakes import MISTAKES, ImpactNumbers, mistakes_about, mistakes_named, numbers_of_impact
-from vml_course.errors import UnknownNameError
+from assignments.mistakes import MISTAKES, ImpactNumbers, numbers_of_impact
 
 PAPER = ImpactNumbers(
     v1=15,
@@ -72,10 +71,3 @@ def test_the_closed_form_gives_the_velocities_of_the_paper() -> None:
 def test_the_closed_form_keeps_e_and_inertia_when_the_ball_comes_in() -> None:
     found = numbers_of_impact({"e": 0.6, "I": 0.9, "m": 0.3, "L": 0.5, "omega1": 20.0, "u1": -4.0})
     assert (found.e, found.I) == pytest.approx((0.6, 0.9), rel=1e-12)
-
-
-def test_codes_are_looked_up_in_the_order_asked() -> None:
-    assert [mistake.code for mistake in mistakes_named(["I2", "E1"])] == ["I2", "E1"]
-    assert {mistake.quantity for mistake in mistakes_about("I")} == {"I"}
-    with pytest.raises(UnknownNameError, match="E99"):
-        mistakes_named(["E99"])

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from assignments.errors import NoVariantError
 from assignments.load import load_assignment
-from assignments.mistakes import mistakes_named
+from assignments.mistakes import MISTAKES
 from assignments.model import Draw, Separation
 from assignments.variants import (
     broken_rules,
@@ -55,7 +55,8 @@ def test_every_variant_keeps_limits_and_tells_common_mistakes_apart(student: str
     assert numbers.e == pytest.approx(variant.parameters["restitution"], rel=1e-12)
     assert numbers.I / variant.parameters["inertia_kg_m2"] == pytest.approx(1.0, rel=1e-12)
     for quantity, truth, tolerance in (("e", numbers.e, 0.02), ("I", numbers.I, 0.05)):
-        values = [m.value(numbers) for m in mistakes_named(KICK.separation.mistakes) if m.quantity == quantity]
+        mistakes = [MISTAKES[code] for code in KICK.separation.mistakes]
+        values = [mistake.value(numbers) for mistake in mistakes if mistake.quantity == quantity]
         assert all(abs(value / truth - 1) > tolerance for value in values)
         assert all(abs(a - b) >= 0.02 * max(abs(a), abs(b)) for a, b in itertools.combinations(values, 2))
 
