@@ -169,13 +169,13 @@ def fit(problem: Problem) -> Fit:
     """Fit by weighted least squares (Levenberg-Marquardt).
 
     A frame right beside the impact can have been put on the wrong side of it. The fitted moment tells; such frames are
-    left out. Where something is held, the tracks must weigh against it as much as they scatter, not as much as they
-    are said to. In either case the rest is fitted again.
+    left out. Where something is held, and the sigma of the tracks was but a guess, they must weigh against it as they
+    scatter. In either case the rest is fitted again.
     """
     found = _fit(problem)
-    # In powers of four: near enough for weights, and the same for tracks that are nearly the same.
-    scatter = max(found.scatter.widened, SMALLEST**2) if problem.held else 1.0
-    factor = 4.0 ** round(math.log(scatter, 16.0))
+    # In powers of 16: a tracker's sigma is never a factor of four off, a guessed one is.
+    rms = float(np.sqrt(np.mean(found.residual[: -len(problem.held)] ** 2))) if problem.held else 1.0
+    factor = 16.0 ** round(math.log(max(rms, SMALLEST), 16.0))
     watched = tuple(_reweighted(_rightly_sided(point, found["t"]), factor) for point in problem.watched)
     if all(new is old for new, old in zip(watched, problem.watched, strict=True)):
         return found
