@@ -7,11 +7,12 @@ a disc. Along the blow means: towards the struck body.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import NamedTuple
 
 import numpy as np
 
-from vml_course.chart.shapes import GREY, INK, PALE, RED, Dot, Drawing, Line, Point, Shape, Words
-from vml_course.kinetics.diagram_parts import HEIGHT, LONGEST, WIDTH, at, headed, named_arrow, short, table_of, text_of
+from vml_course.chart.shapes import GREY, INK, PALE, RED, Dot, Drawing, Line, Point, Shape, Words, arrow
+from vml_course.kinetics.diagram_parts import HEIGHT, WIDTH, at, headed, short, table_of, text_of
 from vml_course.kinetics.impact_model import ImpactOptions
 from vml_course.kinetics.straight import fit_line
 from vml_course.model.arrays import FloatArray
@@ -20,7 +21,8 @@ from vml_course.model.solution import Estimate, ImpactSolution
 
 MIDDLE = (WIDTH / 2, 248.0)
 APART = 118.0  # from the middle to either contact
-RADIUS, REACH = 34.0, 150.0  # of a puck; half of a rod
+PUSH = 84.0  # length of an arrow
+RADIUS, REACH = 34.0, 120.0  # of a puck; half of a rod
 NAMES = {
     "J": "impulse J", "F": "mean force J / contact time", "H": "moment about G, J b", "loss": "energy lost",
     "omega1": "ω of the rod before", "omega2": "ω of the rod after", "v_g1": "v of G before, along J",
@@ -52,19 +54,18 @@ def free_bodies_diagram(
     title = f"{solution.model}: free-body diagram of the impact"
     force = forces["J"]
     numbers = {**solution.estimates, **forces}
-    near, far = at(MIDDLE, -APART * n), at(MIDDLE, APART * n)
     shapes = headed(title)
     if options.striker_mark:
-        shapes += _rod(solution.fitted, options, solution.value("t_impact"), near, n)
-        arm = given["b"]
-        numbers["H"] = Estimate(abs(force.value) * arm, force.sd * arm, "N m s")
+        rod = _rod_at_impact(solution.fitted, options, solution.value("t_impact"), n)
+        # The rod's centre is put at the picture's height, wherever it was struck.
+        middle = at(MIDDLE, 2 * REACH * (rod.share - 0.5) * rod.along)
+        shapes += _rod(rod, options, at(middle, -APART * n), n)
+        numbers["H"] = Estimate(abs(force.value) * given["b"], force.sd * given["b"], "N m s")
     else:
-        shapes += _disc(at(near, -RADIUS * n), options.striker, -n)
-    shapes += _disc(at(far, RADIUS * n), options.struck, n)
-    words = f"J = {short(force)}"
-    shapes += [Dot(near, 4, INK), Dot(far, 4, INK)]
-    shapes += named_arrow(near, -0.8 * LONGEST * n, words, RED, 3)
-    shapes += named_arrow(far, 0.8 * LONGEST * n, words, RED, 3)
+        middle = MIDDLE
+        shapes += _disc(at(middle, -(APART + RADIUS) * n), options.striker, -n)
+    shapes += _disc(at(middle, (APART + RADIUS) * n), options.struck, n)
+    shapes += _push(middle, -n, f"J = {short(force)}") + _push(middle, n, f"J = {short(force)}")
     shown = {name: numbers[name] for name in NAMES if name in numbers}
     told = "; ".join(f"{NAMES[name]} = {text_of(found)}" for name, found in shown.items())
     return Drawing(WIDTH, HEIGHT, (*shapes, *table_of(shown, NAMES)), title, told)
@@ -83,28 +84,47 @@ def blow(fitted: Motion, struck: str, impact_s: float) -> FloatArray:
     return np.asarray(jump / max(float(np.hypot(*jump)), 1e-12))
 
 
+def _push(middle: Point, way: FloatArray, words: str) -> list[Shape]:
+    """Return an arrow that pushes a body away from the middle, named beside it."""
+    tail, head = at(middle, (APART - PUSH) * way), at(middle, APART * way)
+    up = np.array([-way[1], way[0]]) * (1.0 if way[0] >= 0 else -1.0)
+    place = at(middle, (APART - 0.55 * PUSH) * way + 14.0 * up)
+    anchor = "middle" if abs(way[0]) > 0.9 else "start" if up[0] > 0 else "end"
+    return [*arrow(tail, head, RED, 3), Dot(head, 4, INK), Words(place, words, 12, RED, anchor)]
+
+
 def _disc(middle: Point, name: str, away: FloatArray) -> list[Shape]:
     words = at(middle, (RADIUS + 16) * away)
     anchor = "middle" if abs(away[1]) > 0.7 else "start" if away[0] > 0 else "end"
     return [Dot(middle, RADIUS, PALE, GREY), Dot(middle, 2.5, INK), Words(words, name, 12, GREY, anchor)]
 
 
-def _rod(fitted: Motion, options: ImpactOptions, impact_s: float, contact: Point, n: FloatArray) -> list[Shape]:
+class _Rod(NamedTuple):
+    """Direction of a rod from its first mark to the second, and where it is struck as a share of that way."""
+
+    along: FloatArray
+    share: float
+
+
+def _rod_at_impact(fitted: Motion, options: ImpactOptions, impact_s: float, n: FloatArray) -> _Rod:
     """Return the rod as it lay in the last fitted frame before the impact, struck where the ball's normal meets it."""
     tail, tip, ball = (fitted.of(name) for name in (options.striker, options.striker_mark, options.struck))
     seen = np.isfinite(tail + tip + ball).all(axis=1) & (fitted.time_s <= impact_s)
     last = np.flatnonzero(seen)[-1]
-    way = tip[last] - tail[last]
+    way, off = tip[last] - tail[last], ball[last] - tail[last]
     length = float(np.hypot(*way))
     along = way / length
-    # Where the line through the ball along n meets the rod, as a share of its length from its tail.
     across = np.array([-along[1], along[0]])
-    off = ball[last] - tail[last]
     share = float(off @ along - (off @ across) / (n @ across) * (n @ along)) / length
-    ends = [at(contact, 2 * REACH * (end - share) * along) for end in (0.0, 1.0)]
-    centre = at(contact, 2 * REACH * (0.5 - share) * along)
+    return _Rod(along, share)
+
+
+def _rod(rod: _Rod, options: ImpactOptions, contact: Point, n: FloatArray) -> list[Shape]:
+    tail, tip, centre = (at(contact, 2 * REACH * (place - rod.share) * rod.along) for place in (0.0, 1.0, 0.5))
     label = at(centre, -20.0 * n)
-    shapes: list[Shape] = [Line((ends[0], ends[1]), PALE, 22), Line((ends[0], ends[1]), GREY, 1.0, (6, 4))]
-    shapes += [Dot(centre, 3.5, INK), Words((label[0], label[1] + 4), "G", 13, INK, "middle")]
-    names = zip(ends, (-along, along), (options.striker, options.striker_mark), strict=True)
-    return shapes + [Words(at(end, 14.0 * away), name, 12, GREY, "middle") for end, away, name in names]
+    shapes: list[Shape] = [Line((tail, tip), PALE, 22), Line((tail, tip), GREY, 1.0, (6, 4)), Dot(centre, 3.5, INK)]
+    shapes.append(Words((label[0], label[1] + 4), "G", 13, INK, "middle"))
+    for end, away, name in ((tail, -rod.along, options.striker), (tip, rod.along, options.striker_mark)):
+        place = at(end, 22.0 * away)
+        shapes.append(Words((place[0], place[1] + 4), name, 12, GREY, "middle"))
+    return shapes
