@@ -101,7 +101,9 @@ def tracked(number, folder):
     camera = truth.camera
     scale = Calibration(camera.px_per_m, (camera.origin_x_px, camera.origin_y_px))
     sigma = kept["sigma"] / camera.px_per_m
-    return truth, Motion(("foot", "knee", "ball"), kept["frame"], kept["time"], scale.to_m(kept["xy"]), sigma)
+    return truth, Motion(
+        ("foot", "knee", "ball"), kept["frame"], kept["time"], scale.to_m(kept["xy"]), sigma, camera.px_per_m
+    )
 
 
 WAYS = {
@@ -194,7 +196,9 @@ def print_coverage(trials):
                     index = [truth.point_index(point) for point in ("foot", "knee", "ball")]
                     exact = truth.xy_m[:, index]
                     sigma = np.full(exact.shape[:2], 0.1 * PIXEL_M)
-                    motion = Motion(("foot", "knee", "ball"), np.arange(len(exact)), truth.time_s, exact, sigma)
+                    motion = Motion(
+                        ("foot", "knee", "ball"), np.arange(len(exact)), truth.time_s, exact, sigma, 1 / PIXEL_M
+                    )
                 noisy = replace(motion, xy_m=exact + noise(rng, exact))
                 found = impact_model("fixed-pivot").solve(noisy, truth.given, option)
                 true = (truth.impact.restitution, truth.impact.inertia_kg_m2)

@@ -35,7 +35,7 @@ def _trials(name, noise, trials):
         truth = simulate(kind(impact_phase=phase), kind.default_camera, 1)
         exact = truth.xy_m
         sigma = np.full(exact.shape[:2], 0.1 * PIXEL_M)
-        motion = Motion(truth.points, np.arange(len(exact)), truth.time_s, exact, sigma)
+        motion = Motion(truth.points, np.arange(len(exact)), truth.time_s, exact, sigma, 1 / PIXEL_M)
         model, options = impact_model(truth.model), ImpactOptions(**truth.declared)
         for _ in range(trials // len(PHASES)):
             found = model.solve(replace(motion, xy_m=exact + noise(rng, exact)), truth.given, options)

@@ -46,7 +46,7 @@ def tracked(name, number, folder):
     camera = truth.camera
     scale = Calibration(camera.px_per_m, (camera.origin_x_px, camera.origin_y_px))
     sigma = kept["sigma"] / camera.px_per_m
-    return truth, Motion(truth.points, kept["frame"], kept["time"], scale.to_m(kept["xy"]), sigma)
+    return truth, Motion(truth.points, kept["frame"], kept["time"], scale.to_m(kept["xy"]), sigma, camera.px_per_m)
 
 
 def _made(name, number, place):

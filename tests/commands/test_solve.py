@@ -182,7 +182,10 @@ def test_a_free_body_diagram_is_written_with_the_numbers_on_it(tmp_path, capsys,
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["--model", "two-pucks"], "--diagram: expected a body on a fixed pivot (fixed-pivot or hammer-block)"),
+        (
+            ["--model", "spin-bounce"],
+            "--diagram: expected an impact of two bodies (fixed-pivot, hammer-block, free-rod",
+        ),
         (["--method", "lines"], "--diagram: expected a joint solution"),
         (["--contact", "3 s"], "contact time"),
         (["--contact", "3"], "--contact: expected a unit"),
@@ -206,7 +209,9 @@ def test_a_model_knows_the_usual_names_and_view_of_its_scene(tmp_path, capsys):
     header = "frame,t_s,puck_a_x_m,puck_a_y_m,puck_b_x_m,puck_b_y_m\n"
     table = tmp_path / "pucks.csv"
     table.write_text(header + "\n".join(",".join(f"{x:.12g}" for x in row) for row in rows) + "\n", encoding="utf-8")
-    assert cli.run(["solve", str(table), "--model", "two-pucks", "-g", "m=0.2 kg", "--json"]) == 0
+    more = ["--json", "--diagram", str(tmp_path / "forces.svg")]
+    assert cli.run(["solve", str(table), "--model", "two-pucks", "-g", "m=0.2 kg", *more]) == 0
+    assert (tmp_path / "forces.svg").read_text("utf-8").count(">J = 0.32 N s<") == 2
     found = json.loads(capsys.readouterr().out)
     assert found["e"]["value"] == pytest.approx(0.6, rel=1e-6)
     assert found["v_a1"]["unit"] == "m/s"

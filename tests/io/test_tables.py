@@ -90,6 +90,7 @@ def test_what_was_measured_comes_back_from_the_table(tmp_path: Path, kind: str) 
     assert made.motion is not None
     for name in ("frame", "time_s", "xy_m", "sigma_m"):
         np.testing.assert_allclose(getattr(motion, name), getattr(made.motion, name), rtol=LAST_DIGIT)
+    assert motion.px_per_m == pytest.approx(CALIBRATION.px_per_m, rel=1e-9)
 
 
 @settings(max_examples=25, deadline=None)

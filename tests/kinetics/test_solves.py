@@ -12,6 +12,7 @@ from vml_course.kinetics.impact_model import ImpactOptions
 from vml_course.kinetics.lines import solve_by_lines
 from vml_course.kinetics.models import impact_model
 from vml_course.model.motion import Motion
+from vml_course.usecases.solve_table import solve_motion
 
 FPS, FRAMES, IMPACT_S = 480.0, 120, 0.1171
 TIME = np.arange(FRAMES) / FPS - IMPACT_S
@@ -135,6 +136,12 @@ def test_a_hammer_and_a_sliding_block_give_e_i_and_mu(mu, at_rest):
         assert found.value(symbol) == pytest.approx(truth, rel=EXACT)
     assert found.figures["contact_frames"] <= 1  # the block's deceleration is known only after the impact is found
     assert all("contact and" in note for note in found.notes)
+
+
+def test_lines_through_a_block_that_friction_slows_say_why_they_differ():
+    solved = solve_motion(hammer(), "hammer-block", {"m": 1.2, "L": 0.7}, HAMMER)
+    assert any("friction slows it: its speed after is" in note for note in solved.notes)
+    assert solved.lines.value("v_b2") < solved.joint.value("v_b2")
 
 
 def test_a_block_that_stops_within_the_window_is_solved_too():

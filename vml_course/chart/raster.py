@@ -11,6 +11,7 @@ from vml_course.chart.shapes import Dot, Drawing, Line, Point, Polygon, Shape, W
 SCALE = 2.0
 _SHIFT = 4  # OpenCV draws on a grid of 1/16 px
 _FONT = cv2.FONT_HERSHEY_SIMPLEX
+_WRITES_GREEK = hasattr(cv2, "FontFace")  # OpenCV 5 brings a font of its own; the strokes of 4 are ASCII alone
 _UNIT = 22.0  # height of the font's capitals in px at scale 1
 SPELLED = {
     "ω": "omega", "θ": "theta", "α": "alpha", "μ": "mu", "²": "^2", "°": " deg", "−": "-", "±": "+/-", "·": " ",
@@ -28,7 +29,7 @@ def to_png(drawing: Drawing, scale: float = SCALE) -> bytes:
 
 
 def spelled(words: str) -> str:
-    """Return words in letters that the font has.
+    """Return words in letters that OpenCV 4 has.
 
     >>> spelled("ω = 26.8 rad/s ± 2°")
     'omega = 26.8 rad/s +/- 2 deg'
@@ -59,7 +60,7 @@ def _draw(image: NDArray[np.uint8], shape: Shape, scale: float) -> None:
 
 
 def _write(image: NDArray[np.uint8], shape: Words, scale: float) -> None:
-    words, height = spelled(shape.text), 0.70 * shape.size * scale / _UNIT
+    words, height = shape.text if _WRITES_GREEK else spelled(shape.text), 0.70 * shape.size * scale / _UNIT
     stroke = max(1, round(height * (2.0 if shape.is_bold else 1.4)))
     (width, tall), below = cv2.getTextSize(words, _FONT, height, stroke)
     shift = {"start": 0.0, "middle": 0.5, "end": 1.0}[shape.anchor] * width

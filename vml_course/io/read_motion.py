@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 import warnings
 from pathlib import Path
@@ -39,7 +40,9 @@ def motion_from_grid(grid: Grid) -> Motion:
         [np.column_stack([grid.numbers(x), grid.numbers(y)]) * factor for x, y, factor in points.values()], 1
     )
     sigma = [_optional(grid, f"{name}_sigma_m") for name in points]
-    return Motion(tuple(points), _frames(grid), time_s, xy_m, np.column_stack(sigma))
+    pixels = [np.column_stack([_optional(grid, f"{name}_{axis}_px") for axis in "xy"]) for name in points]
+    scale = _px_per_m(np.stack(pixels, 1), xy_m)
+    return Motion(tuple(points), _frames(grid), time_s, xy_m, np.column_stack(sigma), scale)
 
 
 def _points(grid: Grid) -> dict[str, tuple[str, str, float]]:
@@ -95,6 +98,15 @@ def _optional(grid: Grid, column: str) -> FloatArray:
     return grid.numbers(column) if column in grid.header else np.full(len(grid.rows), np.nan)
 
 
+def _px_per_m(xy_px: FloatArray, xy_m: FloatArray) -> float:
+    """Return the scale by which the same places, shape (n, p, 2), are spread in pixels and in metres; NaN for none."""
+    both = np.isfinite(xy_px).all(axis=-1) & np.isfinite(xy_m).all(axis=-1)
+    if not both.any():
+        return math.nan
+    spread_px, spread_m = (float(np.hypot(*np.std(places[both], axis=0))) for places in (xy_px, xy_m))
+    return spread_px / spread_m if spread_px > 0 and spread_m > 0 else math.nan
+
+
 def motion_from_table(path: Path) -> Motion:
     """Read a CSV, text or XLSX file."""
     return motion_from_grid(read_grid(path))
@@ -124,7 +136,7 @@ def motion_from_mat(path: Path) -> Motion:
 
 
 def _held(path: Path) -> dict[str, Any]:
-    names = ["frame", "t", "pointNames", "X", "Y", "Xpx", "sigma"]
+    names = ["frame", "t", "pointNames", "X", "Y", "Xpx", "Ypx", "sigma"]
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
@@ -141,4 +153,7 @@ def _motion_of(held: dict[str, Any]) -> Motion:
     names = tuple(str(np.asarray(cell).item()) for cell in held["pointNames"].ravel())
     frame = np.asarray(held.get("frame", np.arange(len(time_s)))).ravel()
     sigma_m = np.asarray(held.get("sigma", np.full(xy_m.shape[:2], np.nan)), dtype=np.float64)
-    return Motion(names, frame, time_s, xy_m, sigma_m)
+    xy_px = np.stack(
+        [np.asarray(held.get(name, xy_m[..., 0] * np.nan), np.float64) for name in ("Xpx", "Ypx")], axis=-1
+    )
+    return Motion(names, frame, time_s, xy_m, sigma_m, _px_per_m(xy_px, xy_m))

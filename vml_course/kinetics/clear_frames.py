@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -21,17 +22,25 @@ SECOND_SHARE = 0.1  # of the impact's jump of velocity, from which on another ju
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Seen:
-    """Clear frames of one point: time (n,), position (n, 2), sigma (n,), and whether after the impact (n,)."""
+    """Clear frames of one point.
+
+    Time (n,), position (n, 2), sigma (n,), whether after the impact (n,), and the size of a pixel, NaN where unknown.
+    """
 
     time_s: FloatArray
     xy_m: FloatArray
     sigma_m: FloatArray
     is_after: NDArray[np.bool_]
+    pixel_m: float = math.nan
 
     @property
     def counts(self) -> tuple[int, int]:
         """How many frames lie before and after the impact."""
         return int(np.sum(~self.is_after)), int(np.sum(self.is_after))
+
+    def kept(self, frames: NDArray[np.bool_]) -> Seen:
+        """Return the chosen frames (n,) alone."""
+        return Seen(self.time_s[frames], self.xy_m[frames], self.sigma_m[frames], self.is_after[frames], self.pixel_m)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -72,7 +81,8 @@ class ClearFrames:
                 raise TooFewFramesError(point, wish, str(count), hint)
         frames, is_after = frames[is_seen], is_after[is_seen]
         sigma = _sigma(motion.sigma_m[frames, motion.points.index(point)])
-        return Seen(motion.time_s[frames] - self.impact.time_s, xy[frames], sigma, is_after)
+        time_s = motion.time_s[frames] - self.impact.time_s
+        return Seen(time_s, xy[frames], sigma, is_after, 1.0 / motion.px_per_m)
 
 
 def _sigma(sigma_m: FloatArray) -> FloatArray:

@@ -7,6 +7,7 @@ Derivatives come by complex steps, f'(x) = Im f(x + ih) / h, exact to rounding: 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -17,10 +18,12 @@ from scipy.optimize import least_squares
 
 from vml_course.kinetics.clear_frames import Seen
 from vml_course.kinetics.paths import Path, Symbols
+from vml_course.kinetics.scatter import Scatter, scatter_of, waves
 from vml_course.model.arrays import FloatArray, IntArray
 
 STEP = 1e-30
 MOST_MISPLACED = 2  # frames of a point
+SMALLEST = 1e-6  # of the said scatter: motions without noise stay within numbers
 Outcome = Callable[[Symbols], Mapping[str, Any]]
 
 
@@ -104,21 +107,24 @@ class Fit:
     ----------
     x : float array, shape (k,)
         The unknowns, in the order of `problem.start`.
+    noise : float array, shape (k, k)
+        Covariance by the errors of the tracks alone: noise, alike from frame to frame, and pixel locking.
     covariance : float array, shape (k, k)
-        (J^T J)^-1 s^2, inflated by (1 + rho) / (1 - rho) for residuals that are alike from frame to frame.
+        The same and how well that which is held is known.
     residual : float array, shape (rows,)
         In units of sigma.
-    lag1 : float
-        Mean lag-1 correlation rho of the residuals.
+    scatter : Scatter
+        What the residuals tell of the errors.
     by_known : float array, shape (k, known)
         How the unknowns follow a change of the known numbers.
     """
 
     problem: Problem
     x: FloatArray
+    noise: FloatArray
     covariance: FloatArray
     residual: FloatArray
-    lag1: float
+    scatter: Scatter
     by_known: FloatArray
 
     def __getitem__(self, name: str) -> float:
@@ -127,7 +133,7 @@ class Fit:
         return float(self.x[names.index(name)]) if name in names else 0.0
 
     def sd(self, name: str) -> float:
-        """Return one standard deviation of an unknown, from noise alone."""
+        """Return one standard deviation of an unknown, the given numbers taken as exact."""
         at = list(self.problem.start).index(name)
         return float(np.sqrt(self.covariance[at, at]))
 
@@ -144,15 +150,17 @@ class Fit:
             [np.broadcast_to(value, (self.x.size + self.by_known.shape[1], 1))[:, 0] for value in found.values()]
         )
         by_x, by_known = rows.imag[:, : self.x.size] / STEP, rows.imag[:, self.x.size :] / STEP
-        return Derived(tuple(found), rows.real[:, 0], by_x @ self.covariance @ by_x.T, by_known + by_x @ self.by_known)
+        noise, whole = (by_x @ part @ by_x.T for part in (self.noise, self.covariance))
+        return Derived(tuple(found), rows.real[:, 0], noise, whole, by_known + by_x @ self.by_known)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Derived:
-    """Values (o,) with their covariance from noise (o, o), and their total slopes by the known numbers (o, known)."""
+    """Values (o,) with their covariances (o, o) as those of `Fit`, and total slopes by the known numbers (o, known)."""
 
     names: tuple[str, ...]
     values: FloatArray
+    noise: FloatArray
     covariance: FloatArray
     by_known: FloatArray
 
@@ -161,14 +169,25 @@ def fit(problem: Problem) -> Fit:
     """Fit by weighted least squares (Levenberg-Marquardt).
 
     A frame right beside the impact can have been put on the wrong side of it. The fitted moment tells; such frames are
-    left out, and the rest is fitted again.
+    left out. Where something is held, and the sigma of the tracks was but a guess, they must weigh against it as they
+    scatter. In either case the rest is fitted again.
     """
     found = _fit(problem)
-    watched = tuple(_rightly_sided(point, found["t"]) for point in problem.watched)
+    # In powers of 16: a tracker's sigma is never a factor of four off, a guessed one is.
+    rms = float(np.sqrt(np.mean(found.residual[: -len(problem.held)] ** 2))) if problem.held else 1.0
+    factor = 16.0 ** round(math.log(max(rms, SMALLEST), 16.0))
+    watched = tuple(_reweighted(_rightly_sided(point, found["t"]), factor) for point in problem.watched)
     if all(new is old for new, old in zip(watched, problem.watched, strict=True)):
         return found
     start = dict(zip(problem.start, map(float, found.x), strict=True))
     return _fit(replace(problem, start=start, watched=watched))
+
+
+def _reweighted(point: Watched, factor: float) -> Watched:
+    """Return a point whose sigma is larger by a factor."""
+    if factor == 1.0:
+        return point
+    return replace(point, seen=replace(point.seen, sigma_m=point.seen.sigma_m * factor))
 
 
 def _rightly_sided(point: Watched, time_s: float) -> Watched:
@@ -177,8 +196,7 @@ def _rightly_sided(point: Watched, time_s: float) -> Watched:
     right = (seen.time_s > time_s) == seen.is_after
     if right.all() or np.sum(~right) > MOST_MISPLACED:
         return point
-    kept = Seen(seen.time_s[right], seen.xy_m[right], seen.sigma_m[right], seen.is_after[right])
-    return replace(point, seen=kept)
+    return replace(point, seen=seen.kept(right))
 
 
 def _fit(problem: Problem) -> Fit:
@@ -197,30 +215,48 @@ def _fit(problem: Problem) -> Fit:
     x = np.asarray(found.x, dtype=np.float64)
     every, residual = slopes(problem, x), misfit(x)
     scale = np.maximum(np.sqrt(np.sum(every[:, :count] ** 2, axis=0)), 1e-300)
-    inverse = np.linalg.pinv(every[:, :count] / scale, rcond=1e-12)
-    lag1 = lag1_correlation(residual, problem)
-    variance = residual @ residual / max(len(residual) - count, 1) * (1.0 + lag1) / (1.0 - lag1)
+    inverse = np.linalg.pinv(every[:, :count] / scale, rcond=1e-12) / scale[:, None]
+    scatter, noise, whole = _errors(problem, residual, every[:, :count], inverse)
     return Fit(
         problem=problem,
         x=x,
-        covariance=variance * (inverse @ inverse.T) / np.outer(scale, scale),
+        noise=noise,
+        covariance=whole,
         residual=residual,
-        lag1=lag1,
-        by_known=-(inverse @ every[:, count:]) / scale[:, None],
+        scatter=scatter,
+        by_known=-inverse @ every[:, count:],
     )
 
 
-def lag1_correlation(residual: FloatArray, problem: Problem) -> float:
-    """Return the mean correlation of residuals of neighbouring frames, not below 0.
+def _errors(
+    problem: Problem, residual: FloatArray, slope: FloatArray, inverse: FloatArray
+) -> tuple[Scatter, FloatArray, FloatArray]:
+    """Return what the residuals tell, and the covariance of the unknowns: by the tracks alone, and in all.
 
-    Each coordinate of each point on each side is one series of n frames. Fitting about a line to each
-    pulls the estimate r down by (2 + 4 r) / n (Kendall's bias with a trend), which is put back.
+    An error d of the rows moves the unknowns by -G d, G = `inverse`. What is held errs by its own sd, not as tracks do.
     """
-    parts = [residual[rows] for rows in series_of(problem)]
-    pairs = sum(float(part[1:] @ part[:-1]) / max(len(part) - 1, 1) for part in parts)
-    squares = sum(float(part @ part) / len(part) for part in parts)
-    frames = float(np.mean([len(part) for part in parts]))
-    return _unbiased(pairs / squares if squares > 0 else 0.0, frames)
+    tracked = len(residual) - len(problem.held)
+    wave = _locking_waves(problem)
+    left = wave - slope[:tracked] @ (inverse[:, :tracked] @ wave)
+    freedom = max(len(residual) - len(inverse), 1)
+    scatter = scatter_of(residual[:tracked], left, wave, freedom, series_of(problem))
+    by_noise, by_wave, by_held = inverse[:, :tracked], inverse[:, :tracked] @ wave, inverse[:, tracked:]
+    noise = scatter.widened * by_noise @ by_noise.T + scatter.allowed_px2 * by_wave @ by_wave.T
+    return scatter, noise, noise + by_held @ by_held.T
+
+
+def _locking_waves(problem: Problem) -> FloatArray:
+    """Return two columns for each coordinate of the points whose pixels are known, shape (tracked rows, columns)."""
+    rows = sum(2 * len(point.seen.time_s) for point in problem.watched)
+    columns, start = [np.zeros((rows, 0))], 0
+    for seen in (point.seen for point in problem.watched):
+        for place in seen.xy_m.T:
+            if np.isfinite(seen.pixel_m):
+                column = np.zeros((rows, 2))
+                column[start : start + len(place)] = waves(place, seen.sigma_m, seen.pixel_m)
+                columns.append(column)
+            start += len(place)
+    return np.concatenate(columns, axis=1)
 
 
 def series_of(problem: Problem) -> list[IntArray]:
@@ -234,7 +270,3 @@ def series_of(problem: Problem) -> list[IntArray]:
             series += [part for part in (rows[~after], rows[after]) if len(part)]
             start += len(rows)
     return series
-
-
-def _unbiased(raw: float, frames: float) -> float:
-    return float(np.clip((frames * raw + 2.0) / max(frames - 4.0, 1.0), 0.0, 0.95))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from vml_course.errors import LengthMismatchError, UpsideDownError
 from vml_course.kinetics.arc import fit_arc
 from vml_course.kinetics.calibration_checks import Fall, apparent_gravity, gravity_cause
@@ -10,7 +12,6 @@ from vml_course.kinetics.impact_model import ImpactOptions
 
 LENGTH_SHARE = 0.02
 DOUBT_SD = 3.0
-ALIKE = 3.0  # how much wider a radius is when the errors of neighbouring frames are alike (AR(1) with 0.8)
 RADIUS_NOTE = 0.003
 
 
@@ -22,13 +23,14 @@ def refuse_misfits(foot: Seen, struck: Seen, length_m: float, options: ImpactOpt
     UpsideDownError
         When the free body falls upwards.
     LengthMismatchError
-        When the given length is not the radius of the striker's path (3 sd for errors that are alike, and 2 %).
+        When the given length is not the radius of the striker's path: by 3 sd of their difference, and by 2 %.
     """
     refuse_upside_down(struck, options)
-    arc = fit_arc(foot.xy_m)
+    arc = fit_arc(foot.xy_m, foot.pixel_m)
     # In curvatures: those of a short arc are nearly normal, its radii are not.
     off = abs(1.0 / arc.radius_m - 1.0 / length_m) * length_m
-    if off > max(DOUBT_SD * ALIKE * arc.radius_sd_m * length_m / arc.radius_m**2, LENGTH_SHARE):
+    seen_sd, told_sd = arc.radius_sd_m * length_m / arc.radius_m**2, options.given_sd.get("L", 0.0) / length_m
+    if off > max(DOUBT_SD * math.hypot(seen_sd, told_sd, options.scale_sd), LENGTH_SHARE):
         raise LengthMismatchError("given L", arc.radius_m, arc.radius_sd_m, length_m)
 
 

@@ -1,7 +1,8 @@
 """The plot that a student hands in: positions and angle with the fits before and after, the impact, and what is left.
 
 Left the struck body's way along the blow, right the striker (its angle about the pivot, or its way along the blow);
-beneath each the residuals of the joint fit. Dots are measured; straight lines are the student's, over 20 ms each side.
+beneath each the residuals of the joint fit. Dots are measured; dashed lines are the student's, over 20 ms each side,
+where the model can be solved by them.
 """
 
 from __future__ import annotations
@@ -14,6 +15,8 @@ from numpy.typing import NDArray
 
 from vml_course.chart.axes import Scale, label, nice_ticks
 from vml_course.chart.shapes import BLUE, GREEN, GREY, INK, ORANGE, PALE, RED, Dot, Drawing, Line, Shape, Words
+from vml_course.kinetics.free_bodies import blow
+from vml_course.kinetics.lines import MODELS as BY_LINES
 from vml_course.kinetics.straight import fit_line
 from vml_course.kinetics.vectors import unwrapped
 from vml_course.model.arrays import FloatArray
@@ -61,7 +64,8 @@ def impact_plot(motion: Motion, solution: ImpactSolution, striker: str, struck: 
         _struck_track(motion, solution, struck, time_ms),
         _striker_track(motion, solution, striker, struck, time_ms),
     )
-    shapes = [shape for k, track in enumerate(tracks) for shape in _panel(track, LEFT + k * (PANEL + MIDDLE))]
+    by_lines = solution.model in BY_LINES
+    shapes = [shape for k, track in enumerate(tracks) for shape in _panel(track, LEFT + k * (PANEL + MIDDLE), by_lines)]
     values = [
         f"{name} = {with_uncertainty(found.value, found.sd)} {found.unit.replace('^2', '²')}".strip()
         for symbol, name in PLAIN.items()
@@ -72,25 +76,19 @@ def impact_plot(motion: Motion, solution: ImpactSolution, striker: str, struck: 
     head = [Words((LEFT, 30), title, 18, INK, is_bold=True), Words((LEFT, 52), f"{solution.model}: {moment}", 13, GREY)]
     told = f"{title}. {moment}. Dots are measured, curves fitted on either side; residuals beneath."
     return Drawing(
-        WIDTH, HEIGHT, (*head, *_legend(), *shapes), f"{solution.model}: fits before and after the impact", told
+        WIDTH, HEIGHT, (*head, *_legend(by_lines), *shapes), f"{solution.model}: fits before and after the impact", told
     )
 
 
-def _blow(motion: Motion, solution: ImpactSolution, struck: str, time_ms: FloatArray) -> FloatArray:
-    """Return the unit vector along which the struck body's velocity changed, by straight lines; (2,)."""
-    fitted = solution.fitted or motion
-    name = struck if struck in fitted.points else fitted.points[0]
-    xy = fitted.of(name)
-    seen = np.isfinite(xy).all(axis=1)
-    sides = [seen & side for side in (time_ms <= 0, time_ms > 0)]
-    slopes = [fit_line(time_ms[side], xy[side]).slope if side.sum() > 1 else np.zeros(2) for side in sides]
-    # What is seen before only (a pellet that is stuck) struck along its path.
-    jump = slopes[1] - slopes[0] if sides[1].any() else slopes[0]
-    return np.asarray(jump / max(float(np.hypot(*jump)), 1e-12))
+def _blow(solution: ImpactSolution, struck: str) -> FloatArray:
+    fitted = solution.fitted
+    if fitted is None:
+        raise ValueError("only a joint solution can be drawn")
+    return blow(fitted, struck if struck in fitted.points else fitted.points[0], solution.value("t_impact"))
 
 
 def _struck_track(motion: Motion, solution: ImpactSolution, struck: str, time_ms: FloatArray) -> Track:
-    n = _blow(motion, solution, struck, time_ms)
+    n = _blow(solution, struck)
     return _along(f"{struck}, along the blow", struck, motion, solution, n, time_ms)
 
 
@@ -106,7 +104,7 @@ def _along(
 def _striker_track(motion: Motion, solution: ImpactSolution, striker: str, struck: str, time_ms: FloatArray) -> Track:
     """Return the angle about the fitted pivot, or without one the way along the blow."""
     if "pivot_x_m" not in solution.figures or solution.fitted is None:
-        n = _blow(motion, solution, struck, time_ms)
+        n = _blow(solution, struck)
         return _along(f"{striker}, along the blow", striker, motion, solution, n, time_ms)
     pivot = np.array([solution.figures["pivot_x_m"], solution.figures["pivot_y_m"]])
     own, model = (
@@ -117,7 +115,7 @@ def _striker_track(motion: Motion, solution: ImpactSolution, striker: str, struc
     return Track(f"angle of {striker} about the pivot", "°", "°", 1.0, time_ms, own, model + turns)
 
 
-def _panel(track: Track, left: float) -> list[Shape]:
+def _panel(track: Track, left: float, by_lines: bool) -> list[Shape]:  # noqa: FBT001
     reach = SHOWN * float(np.abs(track.time_ms[np.isfinite(track.fitted)]).max(initial=10.0))
     shown = np.isfinite(track.measured) & (np.abs(track.time_ms) <= reach)
     x = Scale(-reach, reach, left, left + PANEL)
@@ -135,7 +133,7 @@ def _panel(track: Track, left: float) -> list[Shape]:
     shapes += [
         Dot((x(t), y(v)), 2.6, "none", INK) for t, v in zip(track.time_ms[shown], track.measured[shown], strict=True)
     ]
-    shapes += _curves(track, x, y) + _student_lines(track, x, y, y_ticks)
+    shapes += _curves(track, x, y) + (_student_lines(track, x, y, y_ticks) if by_lines else [])
     seen = np.isfinite(rest)
     shapes += [Dot((x(t), r(v)), 2.2, GREY) for t, v in zip(track.time_ms[seen], rest[seen], strict=True)]
     shapes.append(
@@ -193,9 +191,11 @@ def _student_lines(track: Track, x: Scale, y: Scale, ticks: tuple[float, ...]) -
     return shapes
 
 
-def _legend() -> list[Shape]:
+def _legend(by_lines: bool) -> list[Shape]:  # noqa: FBT001
     """Return the key, in one row beneath the titles."""
-    entries = ("measured", INK), ("fit before", BLUE), ("fit after", ORANGE), ("lines, 20 ms", GREEN), ("impact", RED)
+    entries = [("measured", INK), ("fit before", BLUE), ("fit after", ORANGE), ("impact", RED)]
+    if by_lines:
+        entries.insert(3, ("lines, 20 ms", GREEN))
     widths = [26 + 7.0 * len(words) + 16 for words, _ in entries]
     starts = itertools.accumulate([LEFT, *widths[:-1]])
     shapes: list[Shape] = []

@@ -37,9 +37,9 @@ class Solving:
 
 
 def estimates_of(derived: Derived, fit: Fit, solving: Solving) -> tuple[dict[str, Estimate], FloatArray]:
-    """Return the estimates and their covariance: noise, given numbers, scale, and the floor, in quadrature.
+    """Return the estimates and their covariance: tracks, what is held, given numbers, scale, and the floor.
 
-    The delta method: with S the total slopes by a given number g, S S^T sd(g)^2 adds to the noise's part.
+    The delta method: with S the total slopes by a given number g, S S^T sd(g)^2 adds to the part of the fit.
     """
     options, total = solving.options, derived.covariance.copy()
     for column, symbol in zip(derived.by_known.T, fit.problem.known, strict=True):
@@ -58,13 +58,14 @@ def estimates_of(derived: Derived, fit: Fit, solving: Solving) -> tuple[dict[str
 def common_figures(derived: Derived, fit: Fit, solving: Solving) -> dict[str, float]:
     """Return what every solution reports: frames, residuals, and the sd from noise alone of what was asked."""
     before, after = np.max([point.seen.counts for point in fit.problem.watched], axis=0)
-    sds = dict(zip(derived.names, np.sqrt(np.diag(derived.covariance)), strict=True))
+    sds = dict(zip(derived.names, np.sqrt(np.diag(derived.noise)), strict=True))
     return {
         "frames_before": float(before),
         "frames_after": float(after),
         "contact_frames": float(solving.frames.contact_frames),
         "residual_rms_m": fit.residual_rms_m,
-        "residual_lag1": fit.lag1,
+        "residual_lag1": fit.scatter.lag1,
+        "locking_px": math.sqrt(2.0 * fit.scatter.locking_px2),
         **{f"{symbol}_sd_random": float(sds[symbol]) for symbol in FLOOR if symbol in sds},
     }
 

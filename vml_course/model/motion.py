@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -25,6 +26,8 @@ class Motion:
         y up; NaN where lost.
     sigma_m : float array, shape (n, p)
         One standard deviation of a coordinate; NaN where unknown.
+    px_per_m : float
+        Scale of the picture that the points were seen in; NaN where unknown.
     """
 
     points: tuple[str, ...]
@@ -32,6 +35,7 @@ class Motion:
     time_s: FloatArray
     xy_m: FloatArray
     sigma_m: FloatArray
+    px_per_m: float = math.nan
 
     def __post_init__(self) -> None:
         axes, p = Axes(), len(self.points)
@@ -107,6 +111,7 @@ class Calibration:
             time_s=track.time_s,
             xy_m=self.to_m(track.xy_px),
             sigma_m=track.sigma_px / self.px_per_m,
+            px_per_m=self.px_per_m,
         )
 
 

@@ -122,6 +122,6 @@ def _found(past: Past, found: Match, own_smear_px: FloatArray | None, *, is_expe
 def _paced(known: Pace, measured: Pace) -> Pace:
     """Return what is to be expected of the next match: a mean of stretches, and no hasty hope of shorter steps."""
     contraction = max(measured.contraction, 0.5 * (known.contraction + measured.contraction))
-    if known is UNKNOWN_PACE:
+    if known == UNKNOWN_PACE:
         contraction = measured.contraction
     return Pace(0.5 * (known.stretch + measured.stretch), contraction)

@@ -109,4 +109,15 @@ def solve_motion(
             lines = solve_by_lines(motion, given, options)
         except (UnknownNameError, TooFewFramesError) as error:
             notes = (*notes, f"no solution by lines: {error}")
+    if joint and lines and model == "hammer-block":
+        notes = (*notes, _slowing_note(joint, lines, options.struck))
     return Solved(motion, options, joint, replace(lines, model=model) if lines else None, notes)
+
+
+def _slowing_note(joint: ImpactSolution, lines: ImpactSolution, struck: str) -> str:
+    """Return why lines and the joint fit differ where friction slows the struck body."""
+    lost = 100.0 * (1.0 - lines.value("v_b2") / joint.value("v_b2"))
+    return (
+        f"lines take {struck} to move steadily, but friction slows it: its speed after is {lost:.1f} % too small by "
+        "lines, and e and I are off with it"
+    )

@@ -108,7 +108,7 @@ class BallisticPendulum:
         )
         found = fit(_tied_problem(free.problem, start))
         solving = Solving(self.name, motion, given, options, frames)
-        sds = np.sqrt(np.diag(roads.covariance))
+        sds = np.sqrt(np.diag(roads.noise))
         figures = dict(zip(roads.names, roads.values, strict=True)) | {"v1_pellet_m_s": float(size(*_velocity(free)))}
         figures |= {f"{name}_sd_random": sd for name, sd in zip(roads.names, sds, strict=True)}
         figures |= {"pivot_x_m": found["kx"], "pivot_y_m": found["ky"], "mark_radius_m": found["r"]}
