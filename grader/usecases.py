@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from assignments.adopt import adopt
 from assignments.course import Course
 from assignments.load import load_assignment
 from assignments.model import AnswerKey, Assignment
@@ -239,7 +240,7 @@ def hand_out_to(
     NoKeyError, FileMissingError, RosterError
         When a pseudonym is unknown, or there is no class list.
     """
-    assignment = load_assignment(assignment_id, course.assignments)
+    assignment = adopt(course, assignment_id)
     with Gradebook.open(course) as gradebook:
         gradebook.students_from_roster(course.roster)
         students = {student.pid: student for student in gradebook.students()}
@@ -252,7 +253,7 @@ def hand_out_to(
             assignment,
             chosen,
             keep=gradebook.keep_key,
-            is_kept=lambda pid: gradebook.has_key(assignment_id, pid),
+            is_kept=lambda pid: gradebook.has_key(assignment.id, pid),
             workers=workers,
             progress=progress,
         )
