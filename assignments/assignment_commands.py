@@ -53,17 +53,23 @@ def list_(course: CourseOption = None, as_json: JsonOption = False) -> None:
     _print_table(("id", "title", "scene", "finds", "points"), rows)
 
 
-def show(assignment: Name, course: CourseOption = None, as_json: JsonOption = False) -> None:
-    """Show what an assignment teaches, asks, tells and draws.
+def show(
+    assignment: Name,
+    course: CourseOption = None,
+    mistakes: Annotated[bool, typer.Option("--mistakes", help="List the mistakes that the grader knows, too.")] = False,
+    as_json: JsonOption = False,
+) -> None:
+    """Show what an assignment teaches, asks, tells and draws, and where its folder is.
 
     Example: vml assignment show two-pucks
     """
+    from assignments.key import answerable
     from assignments.load import load_assignment
     from assignments.words import symbol_text, tolerance_text
 
     found = load_assignment(assignment, course / "assignments" if course else None)
     if as_json:
-        _print_json({**asdict(found), "total_points": found.total_points})
+        _print_json({**asdict(found), "total_points": found.total_points, "mistakes": dict(_mistakes(found))})
         return
     typer.echo(f"{found.title}: {found.summary}\n")
     for goal in found.goals:
@@ -83,6 +89,10 @@ def show(assignment: Name, course: CourseOption = None, as_json: JsonOption = Fa
     for title, text in (("Fixed", fixed), ("Derived", derived), ("Kept apart", ", ".join(found.separation.mistakes))):
         if text:
             typer.echo(f"{title}: {text}.")
+    typer.echo(f"Can be asked in this scene: {', '.join(answerable(found.scene))}.")
+    if mistakes:
+        _print_table(("code", "mistake"), _mistakes(found))
+    typer.echo(f"Its folder: {found.folder}")
 
 
 def check(
@@ -137,6 +147,15 @@ def _concluded(assignment: Assignment) -> list[str]:
     from assignments.words import symbol_text
 
     return [symbol_text(question.symbol) for question in assignment.questions if question.group == "conclusion"]
+
+
+def _mistakes(assignment: Assignment) -> list[tuple[str, str]]:
+    from assignments.names import filled, names_in
+    from assignments.textbook import textbook_of
+
+    names = names_in(assignment.scene, assignment.questions)
+    known = textbook_of(assignment.scene).mistakes.values()
+    return [(m.code, f"{m.quantity}: {filled(m.about, names)}") for m in known if m.scene in {"", assignment.scene}]
 
 
 def _drawn(draw: Draw) -> tuple[str, ...]:

@@ -32,18 +32,18 @@ def line_of(text: str, key: str, got: str = "") -> int:
     told = _BY_PARSER.search(got)
     if told:
         return int(told[1])
-    places = list(_places(text))
-    lines, said = text.splitlines(), got.strip("'\"")
-    for name in _shorter(key):
-        under = [number for path, number in places if path == name or path.startswith(f"{name}.")]
+    places, lines, said = list(_places(text)), text.splitlines(), got.strip("'\"")
+    for name in (f"{key}.{got.partition(':')[0]}", *_shorter(key)):  # a setting names itself: "crf: expected ..."
+        under = [(path, number) for path, number in places if path == name or path.startswith(f"{name}.")]
         if under:
-            saying = [number for number in under if said and said in lines[number - 1]]
-            return saying[0] if saying else under[0]
+            saying = [(path, number) for path, number in under if said and said in lines[number - 1]]
+            alike = [(path, number) for path, number in saying if path.endswith(key.rpartition(".")[2])]
+            return next(iter(alike or saying or under))[1]
     return 1
 
 
 def _shorter(key: str) -> Iterator[str]:
-    """Yield a key, then what holds it; `question.id` stands for the ids of all questions."""
+    """Yield a key, then what holds it."""
     steps = key.split(".")
     for count in range(len(steps), 0, -1):
         yield ".".join(steps[:count])

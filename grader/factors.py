@@ -33,7 +33,7 @@ def find_factors(submission: Submission, key: AnswerKey, questions: Mapping[str,
     """
     found = []
     for dimension, names in (("velocity", _velocity_names), ("angular_velocity", _omega_names)):
-        asked = [question for question in questions.values() if question.dimension == dimension]
+        asked = [q for q in questions.values() if q.dimension == dimension and q.group != "conclusion"]
         ratios = _ratios(submission, key, asked)
         shared = _shared(ratios)
         if shared is None:

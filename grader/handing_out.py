@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
+from assignments.adopt import adopt
 from assignments.bundle import moodle_folder
 from assignments.costs import kept_cost
 from assignments.course import Course
@@ -89,7 +90,7 @@ def hand_out_to(  # noqa: PLR0913 - to whom, and by whom
     InputError, FileMissingError, RosterError
         When a pseudonym is unknown, or there is no class list.
     """
-    assignment = load_assignment(assignment_id, course.assignments)
+    assignment = adopt(course, assignment_id)
     with Gradebook.open(course) as gradebook:
         students = _enrolled(course, gradebook)
         results = hand_out(
@@ -97,10 +98,10 @@ def hand_out_to(  # noqa: PLR0913 - to whom, and by whom
             assignment,
             _chosen(pids, students),
             keep=gradebook.keep_key,
-            is_kept=lambda pid: gradebook.has_key(assignment_id, pid),
+            is_kept=lambda pid: gradebook.has_key(assignment.id, pid),
             workers=workers,
             cluster=cluster,
-            due={pid: course.calendar.due_text(assignment_id, pid) for pid in students},
+            due={pid: course.calendar.due_text(assignment.id, pid) for pid in students},
             progress=progress,
         )
     numbers = _participants(students.values()) if participants is None else participants
@@ -123,7 +124,7 @@ def expect(course: Course, assignment_id: str, pids: Sequence[str] = ()) -> list
             arrivals = gradebook.take_in(_listed(course), course.roster.name, dry_run=True)
             newcomers = [arrival.student for arrival in arrivals if arrival.status == "new"]
             students = {student.pid: student for student in gradebook.students(active_only=True)}
-            kept = {pid for pid in students if gradebook.has_key(assignment_id, pid)}
+            kept = {pid for pid in students if gradebook.has_key(assignment.id, pid)}
     if not students and not newcomers:
         read_roster(course.roster)  # says what is missing
     looked = look_through(course, assignment, _chosen(pids, students), kept.__contains__)

@@ -109,16 +109,25 @@ def base64_middles(data: bytes) -> Iterator[bytes]:
         yield coded[-(-8 * before // 6) : (8 * (before + len(data))) // 6]
 
 
-def leaks(files: Mapping[str, bytes], secrets: Mapping[str, float], digits: int = 3) -> list[str]:
-    """Return where which secret number stands, in which form; with fewer digits it is none."""
+def leaks(
+    files: Mapping[str, bytes],
+    secrets: Mapping[str, float],
+    digits: int = 3,
+    others: Mapping[str, bytes] | None = None,
+) -> list[str]:
+    """Return where which secret number stands, in which form; with fewer digits it is none.
+
+    `others` are files of somebody with other numbers: what stands there, too, such as a size of type, tells nothing.
+    """
     searched = [part for name, content in files.items() for part in parts(name, content)]
+    common = [content for name, data in (others or {}).items() for _, content in parts(name, data)]
     found = []
     for secret, value in secrets.items():
         for kind, form in forms(value, digits):
-            pattern = alone(form) if kind == "text" else None
-            for where, content in searched:
-                if form in content and (pattern is None or pattern.search(content)):
-                    found.append(f"{secret} as {kind} {form!r} in {where}")
+            pattern = alone(form) if kind == "text" else re.compile(re.escape(form), re.DOTALL)
+            places = [where for where, content in searched if form in content and pattern.search(content)]
+            if places and not any(form in content and pattern.search(content) for content in common):
+                found += [f"{secret} as {kind} {form!r} in {where}" for where in places]
     return found
 
 
@@ -166,7 +175,11 @@ def test_no_secret_number_stands_in_what_is_handed_out(case: Case) -> None:
     }  # seen in the picture, not so sharply
     assert len(secrets) > 15
     assert leaks(files, places, digits=5) == []
-    assert leaks(files, {name: value for name, value in secrets.items() if name not in places}) == []
+    theirs = secrets_of(case.other.key, case.assignment)
+    own = {name: value for name, value in secrets.items() if name not in places}
+    same = {name: value for name, value in own.items() if value == theirs.get(name)}
+    assert leaks(files, same) == []
+    assert leaks(files, {name: value for name, value in own.items() if name not in same}, others=case.other.files) == []
 
 
 def test_a_students_numbers_are_not_in_another_students_files(case: Case) -> None:
