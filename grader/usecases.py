@@ -23,7 +23,7 @@ from grader.gradebook import Gradebook, Row, Student
 from grader.inbox import receive
 from grader.model import Submission
 from grader.plausible import settle_readings
-from grader.read import ReadRequest, claims_of, find_submission, read_workbook
+from grader.read import ReadRequest, claims_of, find_submission, read_isolated
 from grader.read.locate import Claims
 from grader.template import template_cells
 from vml_course.errors import FileMissingError, InputError, VmlError
@@ -186,7 +186,7 @@ def _grade_one(course: Course, gradebook: Gradebook, file: Path, *, show_truth: 
 
 
 def _understood(course: Course, gradebook: Gradebook, request: ReadRequest) -> tuple[Submission, Assignment, AnswerKey]:
-    book = read_workbook(request)
+    book = read_isolated(request)
     claims = claims_of(book)
     key = gradebook.key_for_code(claims.code, request.name)
     if not _is_signed(course, key, claims):

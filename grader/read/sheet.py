@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import functools
 import math
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 from grader.model import Kind
 from grader.read import limits
@@ -17,18 +19,22 @@ Place = tuple[int, int]
 """Row and column, both from 1."""
 
 _REFERENCE = re.compile(r"\$?([A-Za-z]{1,3})\$?([0-9]{1,7})")
-_OTHER_WORKBOOK = re.compile(r"\[[^\]]+\][^!]*!")
+_OTHER_WORKBOOK = re.compile(r"\[[^\[\]]+\][^\[\]!]*!")
 
 
-@dataclass(frozen=True)
-class BookCell:
-    """A cell's value; `format` is its number format, "" for general."""
+class BookCell(NamedTuple):
+    """A cell's value; `format` is its number format, "" for general. A tuple: a workbook has thousands."""
 
     kind: Kind
     number: float | None = None
-    text: str = ""
+    written: str = ""
     format: str = ""
     is_formula: bool = False
+
+    @property
+    def text(self) -> str:
+        """What is written, or the number in its shortest form."""
+        return self.written if self.number is None else shortest(self.number)
 
 
 @dataclass
@@ -49,10 +55,15 @@ def place_of(reference: str) -> Place | None:
     found = _REFERENCE.fullmatch(reference)
     if found is None:
         return None
+    return int(found[2]), _column(found[1])
+
+
+@functools.lru_cache(maxsize=20_000)
+def _column(letters: str) -> int:
     column = 0
-    for letter in found[1].upper():
+    for letter in letters.upper():
         column = 26 * column + ord(letter) - 64
-    return int(found[2]), column
+    return column
 
 
 def address_of(place: Place) -> str:
@@ -88,55 +99,56 @@ class _SheetReader:
     def __init__(self, strings: Sequence[str], formats: Sequence[str]) -> None:
         self.sheet = SheetContent()
         self._strings, self._formats = strings, formats
+        self._general = formats[0] if formats else ""
         self._row, self._column = 0, 0
         self._attributes: Attributes | None = None
-        self._parts: dict[str, list[str]] = {}
+        self._parts: dict[str, str] = {}
         self._into = ""
         self._in_phonetic = False
 
     def start(self, name: str, attributes: Attributes) -> None:
-        if name == "row":
+        if name == "c":
+            place = place_of(attributes.get("r", ""))
+            self._row, self._column = place or (self._row, self._column + 1)
+            self._attributes, self._parts = attributes, {}
+        elif self._attributes is not None:
+            self._start_inside(name)
+        elif name == "row":
             number = attributes.get("r", "")
             self._row = int(number) if number.isascii() and number.isdigit() and len(number) <= 7 else self._row + 1
             self._column = 0
-        elif name == "c":
-            self._place(attributes)
         elif name == "mergeCell":
             self._merge(attributes.get("ref", ""))
-        elif self._attributes is not None:
-            self._in_phonetic = self._in_phonetic or name == "rPh"
-            self._into = name if name in {"v", "f", "t"} and not self._in_phonetic else ""
-            if self._into:
-                self._parts.setdefault(self._into, [])
 
     def text(self, part: str) -> None:
-        if self._into:
-            self._parts[self._into].append(part)
+        if self._into and len(self._parts[self._into]) < limits.CELL_LENGTH:
+            self._parts[self._into] += part
 
     def end(self, name: str) -> None:
         self._into = ""
-        if name == "rPh":
-            self._in_phonetic = False
-        elif name == "c" and self._attributes is not None:
-            self._keep(self._attributes)
+        if name == "c" and self._attributes is not None:
+            if self._parts:  # else it has a style only
+                self._keep(self._attributes)
             self._attributes = None
+        elif name == "rPh":
+            self._in_phonetic = False
 
-    def _place(self, attributes: Attributes) -> None:
-        place = place_of(attributes.get("r", ""))
-        self._row, self._column = place or (self._row, self._column + 1)
-        self._attributes, self._parts = attributes, {}
+    def _start_inside(self, name: str) -> None:
+        """Begin a part of a cell: its value, formula, or a run of its text, but no pronunciation guide."""
+        self._in_phonetic = self._in_phonetic or name == "rPh"
+        self._into = name if name in {"v", "f", "t"} and not self._in_phonetic else ""
+        if self._into:
+            self._parts.setdefault(self._into, "")
 
     def _keep(self, attributes: Attributes) -> None:
-        if not self._parts:
-            return  # style only
         if self._row > limits.ROWS or self._column > limits.COLUMNS:
             self.sheet.flags.add("far-cells")
             return
-        formula = "f" in self._parts
-        if formula and _OTHER_WORKBOOK.search("".join(self._parts["f"])):
+        formula = self._parts.get("f")
+        if formula and "!" in formula and _OTHER_WORKBOOK.search(formula[: limits.CELL_LENGTH]):
             self.sheet.flags.add("formula-to-other-workbook")
-        written = "".join(self._parts.get("v", [])) or "".join(self._parts.get("t", []))
-        cell = self._cell(attributes, written, is_formula=formula)
+        written = self._parts.get("v") or self._parts.get("t", "")
+        cell = self._cell(attributes, written, is_formula=formula is not None)
         if cell.kind is not Kind.BLANK:
             self.sheet.cells[self._row, self._column] = cell
         if len(self.sheet.cells) > limits.CELLS:
@@ -144,17 +156,17 @@ class _SheetReader:
 
     def _cell(self, attributes: Attributes, written: str, *, is_formula: bool) -> BookCell:
         kind = attributes.get("t", "n")
-        code = self._format(attributes.get("s", ""))
+        code = self._format(attributes["s"]) if "s" in attributes else self._general
+        if kind == "n" and written:
+            return _number_cell(written, code, is_formula=is_formula)
         if is_formula and not written and kind != "str":
-            return BookCell(Kind.UNCACHED, text="", format=code, is_formula=True)
-        if kind == "s":
-            return _text_cell(self._string(written), code, is_formula=is_formula)
-        if kind in {"str", "inlineStr"}:
-            return _text_cell(written, code, is_formula=is_formula)
+            return BookCell(Kind.UNCACHED, format=code, is_formula=True)
+        if kind in {"s", "str", "inlineStr"}:
+            return _text_cell(self._string(written) if kind == "s" else written, code, is_formula=is_formula)
         if kind == "b":
-            return BookCell(Kind.BOOL, text="TRUE" if written == "1" else "FALSE", is_formula=is_formula)
+            return BookCell(Kind.BOOL, written="TRUE" if written == "1" else "FALSE", is_formula=is_formula)
         if kind in {"e", "d"}:
-            return BookCell(Kind.ERROR if kind == "e" else Kind.DATE, text=written[:40], is_formula=is_formula)
+            return BookCell(Kind.ERROR if kind == "e" else Kind.DATE, written=written[:40], is_formula=is_formula)
         return _number_cell(written, code, is_formula=is_formula)
 
     def _format(self, style: str) -> str:
@@ -176,7 +188,7 @@ class _SheetReader:
 def _text_cell(text: str, code: str, *, is_formula: bool) -> BookCell:
     if not text.strip():
         return BookCell(Kind.BLANK)
-    return BookCell(Kind.TEXT, text=text[: limits.TEXT_LENGTH], format=code, is_formula=is_formula)
+    return BookCell(Kind.TEXT, written=text[: limits.TEXT_LENGTH], format=code, is_formula=is_formula)
 
 
 def _number_cell(written: str, code: str, *, is_formula: bool) -> BookCell:
@@ -187,9 +199,9 @@ def _number_cell(written: str, code: str, *, is_formula: bool) -> BookCell:
     except ValueError as error:
         raise RefusedError("a damaged workbook") from error
     if not math.isfinite(number):
-        return BookCell(Kind.ERROR, text=written[:40], is_formula=is_formula)
+        return BookCell(Kind.ERROR, written=written[:40], is_formula=is_formula)
     kind = Kind.DATE if shows_date(code) else Kind.NUMBER
-    return BookCell(kind, number=number, text=shortest(number), format=code, is_formula=is_formula)
+    return BookCell(kind, number=number, format=code, is_formula=is_formula)
 
 
 def shortest(number: float) -> str:
