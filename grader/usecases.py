@@ -192,7 +192,7 @@ def _understood(course: Course, gradebook: Gradebook, request: ReadRequest) -> t
     if not _is_signed(course, key, claims):
         raise UnknownVariantError(request.name, claims.code)
     assignment = load_assignment(key.assignment_id)
-    return find_submission(book, assignment.questions, template_cells(assignment)), assignment, key
+    return find_submission(book, assignment.questions, template_cells(assignment), assignment.points), assignment, key
 
 
 def _is_signed(course: Course, key: AnswerKey, claims: Claims) -> bool:

@@ -97,7 +97,7 @@ def _read_book(request: ReadRequest, container: Container, path: str) -> Book:
         found = relations.get(relation)
         if found is None or found.type != "worksheet":
             continue  # a chart sheet holds no cells
-        content = read_sheet(container.read(found.target), strings, formats)
+        content = read_sheet(container.read(found.target), strings, formats, is_1904=directory.is_1904)
         flags |= content.flags
         sheets.append(_sheet(name, content, is_visible=state == "visible"))
         if sum(len(sheet.cells) for sheet in sheets) > limits.CELLS:

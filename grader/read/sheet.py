@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import datetime as dt
 import functools
 import math
 import re
@@ -14,6 +15,9 @@ from grader.read import limits
 from grader.read.errors import OUR_TEMPLATE, RefusedError
 from grader.read.markup import Attributes, parse
 from grader.read.parts import shows_date
+
+_EPOCH = dt.datetime(1899, 12, 30)  # noqa: DTZ001 - days are counted without a zone
+_EPOCH_1904 = dt.datetime(1904, 1, 1)  # noqa: DTZ001
 
 Place = tuple[int, int]
 """Row and column, both from 1."""
@@ -33,8 +37,8 @@ class BookCell(NamedTuple):
 
     @property
     def text(self) -> str:
-        """What is written, or the number in its shortest form."""
-        return self.written if self.number is None else shortest(self.number)
+        """What is written (of a date: the date, in ISO form), or the number in its shortest form."""
+        return self.written if self.number is None or self.written else shortest(self.number)
 
 
 @dataclass
@@ -80,7 +84,9 @@ def address_of(place: Place) -> str:
     return f"{letters}{row}"
 
 
-def read_sheet(content: bytes, strings: Sequence[str], formats: Sequence[str]) -> SheetContent:
+def read_sheet(
+    content: bytes, strings: Sequence[str], formats: Sequence[str], *, is_1904: bool = False
+) -> SheetContent:
     """Read a sheet's cells; those far away are left out and flagged `far-cells`.
 
     Raises
@@ -88,7 +94,7 @@ def read_sheet(content: bytes, strings: Sequence[str], formats: Sequence[str]) -
     RefusedError
         When it is damaged or holds too many cells.
     """
-    reader = _SheetReader(strings, formats)
+    reader = _SheetReader(strings, formats, _EPOCH_1904 if is_1904 else _EPOCH)
     parse(content, reader.start, reader.end, reader.text)
     return reader.sheet
 
@@ -96,9 +102,9 @@ def read_sheet(content: bytes, strings: Sequence[str], formats: Sequence[str]) -
 class _SheetReader:
     """The state of the pass: where we are, and what was collected of the current cell."""
 
-    def __init__(self, strings: Sequence[str], formats: Sequence[str]) -> None:
+    def __init__(self, strings: Sequence[str], formats: Sequence[str], epoch: dt.datetime) -> None:
         self.sheet = SheetContent()
-        self._strings, self._formats = strings, formats
+        self._strings, self._formats, self._epoch = strings, formats, epoch
         self._general = formats[0] if formats else ""
         self._row, self._column = 0, 0
         self._attributes: Attributes | None = None
@@ -158,7 +164,7 @@ class _SheetReader:
         kind = attributes.get("t", "n")
         code = self._format(attributes["s"]) if "s" in attributes else self._general
         if kind == "n" and written:
-            return _number_cell(written, code, is_formula=is_formula)
+            return self._number(written, code, is_formula=is_formula)
         if is_formula and not written and kind != "str":
             return BookCell(Kind.UNCACHED, format=code, is_formula=True)
         if kind in {"s", "str", "inlineStr"}:
@@ -167,7 +173,20 @@ class _SheetReader:
             return BookCell(Kind.BOOL, written="TRUE" if written == "1" else "FALSE", is_formula=is_formula)
         if kind in {"e", "d"}:
             return BookCell(Kind.ERROR if kind == "e" else Kind.DATE, written=written[:40], is_formula=is_formula)
-        return _number_cell(written, code, is_formula=is_formula)
+        return self._number(written, code, is_formula=is_formula)
+
+    def _number(self, written: str, code: str, *, is_formula: bool) -> BookCell:
+        if not written.strip():
+            return BookCell(Kind.BLANK)
+        try:
+            number = float(written[:64])
+        except ValueError as error:
+            raise RefusedError("a damaged workbook") from error
+        if not math.isfinite(number):
+            return BookCell(Kind.ERROR, written=written[:40], is_formula=is_formula)
+        if shows_date(code):
+            return BookCell(Kind.DATE, number, _date_text(number, self._epoch), code, is_formula)
+        return BookCell(Kind.NUMBER, number, "", code, is_formula)
 
     def _format(self, style: str) -> str:
         index = int(style) if style.isascii() and style.isdigit() and len(style) <= 6 else 0
@@ -191,17 +210,17 @@ def _text_cell(text: str, code: str, *, is_formula: bool) -> BookCell:
     return BookCell(Kind.TEXT, written=text[: limits.TEXT_LENGTH], format=code, is_formula=is_formula)
 
 
-def _number_cell(written: str, code: str, *, is_formula: bool) -> BookCell:
-    if not written.strip():
-        return BookCell(Kind.BLANK)
+def _date_text(days: float, epoch: dt.datetime) -> str:
+    """Return the date, or the time of day, that a number of days shows as; "" when no calendar has it.
+
+    >>> _date_text(45413.0, _EPOCH), _date_text(0.0625, _EPOCH)
+    ('2024-05-01', '01:30:00')
+    """
     try:
-        number = float(written[:64])
-    except ValueError as error:
-        raise RefusedError("a damaged workbook") from error
-    if not math.isfinite(number):
-        return BookCell(Kind.ERROR, written=written[:40], is_formula=is_formula)
-    kind = Kind.DATE if shows_date(code) else Kind.NUMBER
-    return BookCell(kind, number=number, format=code, is_formula=is_formula)
+        moment = epoch + dt.timedelta(days=days)
+    except OverflowError:
+        return ""
+    return moment.time().isoformat("seconds") if 0 <= days < 1 else moment.date().isoformat()
 
 
 def shortest(number: float) -> str:

@@ -19,7 +19,7 @@ import subprocess
 import sys
 import threading
 from collections.abc import Callable
-from typing import BinaryIO
+from typing import IO
 
 from grader.model import Kind
 from grader.read import limits
@@ -153,7 +153,7 @@ def read_isolated(request: ReadRequest) -> Book:
 # ---------------------------------------------------------------- messages
 
 
-def _pipe(stream: BinaryIO | io.IOBase | None) -> BinaryIO:
+def _pipe(stream: IO[bytes] | None) -> IO[bytes]:
     return stream  # type: ignore[return-value]  # both pipes were asked for
 
 
@@ -165,12 +165,12 @@ def _exchange(process: subprocess.Popen[bytes], message: bytes) -> bytes | None:
     return _received(_pipe(process.stdout))
 
 
-def _send(stream: BinaryIO, message: bytes) -> None:
+def _send(stream: IO[bytes], message: bytes) -> None:
     stream.write(len(message).to_bytes(_LENGTH_BYTES, "little") + message)
     stream.flush()
 
 
-def _received(stream: BinaryIO) -> bytes | None:
+def _received(stream: IO[bytes]) -> bytes | None:
     """Return the next message whole; None when the pipe ends."""
     length = stream.read(_LENGTH_BYTES)
     if len(length) < _LENGTH_BYTES:
