@@ -21,7 +21,7 @@ from grader.gradebook import Gradebook
 from grader.inbox import LARGEST_BYTES, keep
 from grader.lms import AUTO, recognise
 from grader.lms.named import Named
-from grader.read import ReadRequest, claims_of, read_workbook
+from grader.read import ReadRequest, claims_of, read_isolated
 from grader.receipts import Arrived, handed_in_at
 from grader.signed import is_signed
 from vml_course.errors import FileMissingError, VmlError
@@ -155,7 +155,7 @@ class _Desk:
 
     def _by_code(self, file: _File) -> str:
         name = file.name.rpartition("/")[2]
-        claims = claims_of(read_workbook(ReadRequest(name, file.data or b"")))
+        claims = claims_of(read_isolated(ReadRequest(name, file.data or b"")))
         key = self._book.key_for_code(claims.code, name)
         if not is_signed(self._course, key, claims):
             raise UnknownVariantError(name, claims.code)

@@ -59,7 +59,9 @@ def check(
     workbook: Annotated[Path, typer.Argument(help="The workbook that you are about to hand in.")],
     as_json: JsonOption = False,
 ) -> None:
-    """Look at a workbook as the grader will: can it be read, is it complete. Says nothing about right or wrong.
+    """Look at a workbook as the grader will: can it be read, is it complete, does it agree with itself.
+
+    It says nothing about right or wrong, and needs no course.
 
     It does not test the variant code either: hand in the workbook that came with your own video.
 
@@ -74,6 +76,8 @@ def check(
         for answer in result.answers:
             typer.echo(f"{_mark(answer)} {answer.label}: {answer.says}")
         typer.echo(f"{'✓' if result.tracking_rows else '✗'} Tracking table: {result.tracking_rows} rows")
+        for remark in result.remarks:
+            typer.echo(f"! {remark}")
         typer.echo("Complete: it can be handed in." if result.is_complete else "Not complete yet.")
         typer.echo("Only the form was looked at: not whether values are right, not whether the variant code is yours.")
     if not result.is_complete:

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 from assignments.load import load_assignment
 from assignments.model import Assignment
+from grader.consistent import remarks_on
 from grader.model import Kind, Submission
 from grader.plausible import settle_readings
 from grader.read import ReadRequest, claims_of, find_submission, read_workbook
+from grader.read.locate import Claims
 from grader.stated import Unstated, state
 from grader.template import template_cells
 from vml_course.io.files import existing
@@ -32,12 +34,16 @@ class Checked:
 
 @dataclass(frozen=True)
 class CheckResult:
-    """What a workbook's form is like; nothing is compared with any truth."""
+    """What a workbook's form is like; nothing is compared with any truth.
+
+    `remarks` are sentences about what looks odd; a complete workbook may have some.
+    """
 
     assignment_id: str
     answers: tuple[Checked, ...]
     tracking_rows: int
     flags: tuple[str, ...]
+    remarks: tuple[str, ...] = ()
 
     @property
     def is_complete(self) -> bool:
@@ -46,18 +52,30 @@ class CheckResult:
 
 
 def check_workbook(file: Path) -> CheckResult:
-    """Look at a workbook as the grader will, for format and completeness only.
+    """Look at a workbook as the grader will: format, completeness, plausibility, and whether it agrees with itself.
+
+    The assignment is the one that the workbook's hidden sheet names; no course and no gradebook is needed.
 
     Raises
     ------
     FileMissingError, UnreadableError, UnknownNameError
     """
     book = read_workbook(ReadRequest(file.name, existing(file).read_bytes()))
-    assignment = load_assignment(claims_of(book).assignment_id)
-    submission = find_submission(book, assignment.questions, template_cells(assignment))
+    claims = claims_of(book)
+    assignment = load_assignment(claims.assignment_id)
+    submission = find_submission(book, assignment.questions, template_cells(assignment), assignment.points)
     submission = settle_readings(submission, {question.id: question for question in assignment.questions})
     rows = max((len(column) for column in submission.tracking.values()), default=0)
-    return CheckResult(assignment.id, tuple(_checked(submission, assignment)), rows, submission.flags)
+    remarks = (*_version_remark(claims, assignment), *remarks_on(book, submission, assignment))
+    return CheckResult(assignment.id, tuple(_checked(submission, assignment)), rows, submission.flags, remarks)
+
+
+def _version_remark(claims: Claims, assignment: Assignment) -> Iterator[str]:
+    if claims.version and claims.version != assignment.version:
+        yield (
+            f"This workbook is of version {claims.version[:20]} of the assignment; this program knows version "
+            f"{assignment.version}. Is it last year's?"
+        )
 
 
 _NO_UNIT = {

@@ -24,7 +24,7 @@ from grader.gradebook import Gradebook, Row
 from grader.inbox import keep, kept_name, received_bytes
 from grader.model import Grade, Submission
 from grader.plausible import settle_readings
-from grader.read import ReadRequest, claims_of, find_submission, read_workbook
+from grader.read import ReadRequest, claims_of, find_submission, read_isolated
 from grader.receipts import Arrived, Receipt, handed_in_at
 from grader.signed import is_signed
 from grader.template import template_cells
@@ -234,13 +234,17 @@ class _Marker:
         return _graded(name, result, key, row, attempt, page)
 
     def _understood(self, request: ReadRequest) -> tuple[Submission, Assignment, AnswerKey]:
-        book = read_workbook(request)
+        book = read_isolated(request)
         claims = claims_of(book)
         key = self._book.key_for_code(claims.code, request.name)
         if not is_signed(self._course, key, claims):
             raise UnknownVariantError(request.name, claims.code)
         assignment = self._load(key.assignment_id)
-        return find_submission(book, assignment.questions, template_cells(assignment)), assignment, key
+        return (
+            find_submission(book, assignment.questions, template_cells(assignment), assignment.points),
+            assignment,
+            key,
+        )
 
     def _load(self, assignment_id: str) -> Assignment:
         return load_assignment(assignment_id, self._course.assignments)

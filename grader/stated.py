@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from assignments.model import Question
 from grader.model import Answer, Kind, Outcome
+from grader.read.locate import SEVERAL
 from vml_course.errors import AmbiguousNumberError, InputError, UncalibratedUnitError
 from vml_course.model.reading import UNITS, Reading, read_number, read_quantity
 
@@ -47,6 +48,9 @@ class Unstated:
 
 def state(answer: Answer, question: Question) -> Stated | Unstated:
     """Read one answer as the quantity that the question asks for; never raises."""
+    if answer.found_by == SEVERAL:
+        reason = f"Several cells carry this label ({answer.where}) and say different things: {answer.text}. Keep one."
+        return Unstated(Outcome.UNSURE, f"{reason} A person will look at it.")
     if answer.kind is Kind.NUMBER:
         return _from_text(answer, f"{answer.text} {answer.unit_text}", question)
     if answer.kind is Kind.TEXT:
@@ -74,8 +78,11 @@ def _uncached(_: Answer) -> Unstated:
 
 
 def _date(answer: Answer) -> Unstated:
-    serial = f" (day number {answer.text})" if answer.number is not None else ""
-    reason = f"The cell holds a date{serial}: the spreadsheet took your number for one. A person will look at it."
+    number = f" and holds the number {answer.number:.15g}" if answer.number is not None else ""
+    reason = (
+        f"The cell shows a date, {answer.text}{number}: the spreadsheet took what you typed for one. "
+        "Set the cell's format to Number and type your value again. A person will look at it."
+    )
     return Unstated(Outcome.UNSURE, reason)
 
 

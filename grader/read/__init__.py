@@ -6,7 +6,19 @@
 from __future__ import annotations
 
 from grader.read.book import Book, BookCell, ReadRequest, read_workbook
-from grader.read.errors import UnreadableError
+from grader.read.errors import ReaderFailedError, UnreadableError
 from grader.read.locate import claims_of, find_submission
+from grader.read.worker import Reader, read_isolated
 
-__all__ = ["Book", "BookCell", "ReadRequest", "UnreadableError", "claims_of", "find_submission", "read_workbook"]
+__all__ = [
+    "Book",
+    "BookCell",
+    "ReadRequest",
+    "Reader",
+    "ReaderFailedError",
+    "UnreadableError",
+    "claims_of",
+    "find_submission",
+    "read_isolated",
+    "read_workbook",
+]

@@ -70,7 +70,7 @@ def read_workbook(request: ReadRequest) -> Book:
     try:
         return _read(request, is_inner=False)
     except RefusedError as error:
-        raise UnreadableError(_shown(request.name), error.got, error.hint) from error
+        raise UnreadableError(shown_name(request.name), error.got, error.hint) from error
 
 
 def _read(request: ReadRequest, *, is_inner: bool) -> Book:
@@ -97,7 +97,7 @@ def _read_book(request: ReadRequest, container: Container, path: str) -> Book:
         found = relations.get(relation)
         if found is None or found.type != "worksheet":
             continue  # a chart sheet holds no cells
-        content = read_sheet(container.read(found.target), strings, formats)
+        content = read_sheet(container.read(found.target), strings, formats, is_1904=directory.is_1904)
         flags |= content.flags
         sheets.append(_sheet(name, content, is_visible=state == "visible"))
         if sum(len(sheet.cells) for sheet in sheets) > limits.CELLS:
@@ -156,6 +156,7 @@ def _sha(data: bytes) -> str:
     return hashlib.sha256(data).hexdigest()
 
 
-def _shown(name: str) -> str:
+def shown_name(name: str) -> str:
+    """Return a file's name fit for a message: printable and short."""
     printable = "".join(character if character.isprintable() else "?" for character in name)
     return printable if len(printable) <= 80 else printable[:77] + "..."

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from vml_course.errors import InputError
+from vml_course.errors import InputError, VmlError
 
 SAVE_AS = "In Excel or LibreOffice choose File, Save As, Excel Workbook (.xlsx), and hand in that file."
 AGAIN = "Open it on your computer, save it again and hand in the new copy."
@@ -22,3 +22,10 @@ class RefusedError(Exception):
     def __init__(self, got: str, hint: str = AGAIN) -> None:
         self.got, self.hint = got, hint
         super().__init__(got)
+
+
+class ReaderFailedError(VmlError):
+    """The process that reads workbooks cannot be started: no file is to blame."""
+
+    def __init__(self) -> None:
+        super().__init__("reader: the process that reads workbooks cannot be started. Is memory short? Try again.")

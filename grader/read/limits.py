@@ -15,6 +15,7 @@ RATIO_FROM_BYTES = 2**20  # small members may compress well for honest reasons
 
 XML_DEPTH = 64
 XML_ELEMENTS = 5_000_000
+XML_NAMES = 1_000  # remembered; a workbook has a few dozen
 SHEETS = 64
 NAMES = 4_000
 STYLES = 66_000  # Excel itself stops at 65 490
@@ -23,4 +24,9 @@ CELLS = 200_000
 MERGES = 20_000
 
 ROWS, COLUMNS = 20_000, 256  # cells beyond are ignored and flagged: Solver keeps its settings at XFD1048550
+CELL_LENGTH = 8_192  # of one formula or value: Excel's own limit of formulas
 TEXT_LENGTH = 2_000  # longer texts are cut: no answer is that long
+
+WALL_S, CPU_S, START_S = 30.0, 20.0, 60.0  # of the reading process: a file, a file, its start
+MEMORY_BYTES = 2**30
+ANSWER_BYTES = 2**28  # of what the process says of a file

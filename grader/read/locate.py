@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import re
 import unicodedata
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from assignments.model import Question
@@ -14,19 +14,28 @@ from grader.read.book import Book, BookCell, Sheet
 from grader.read.errors import OUR_TEMPLATE, UnreadableError
 from grader.read.sheet import Place, address_of, place_of
 from grader.read.table import read_table
+from vml_course.model.arrays import FloatArray
 
+_IN_BRACKETS = re.compile(r"[(\[][^()\[\]]*[)\]]")  # a unit or symbol behind a label
+_LABEL_LENGTH = 200
 _LABEL_REACH = 4  # how many columns right of a label an answer may stand
 _META_SHEET = "_meta"
+SEVERAL = "several"
+"""How an answer was found when several cells carry its label and say different things."""
 _NO_ANSWERS = ("tracking", "instructions", _META_SHEET)  # our own sheets without answers
+
+
+_Labels = dict[str, list[tuple[Sheet, Place]]]
 
 
 @dataclass(frozen=True)
 class Claims:
-    """What a workbook says it is: the variant's code, the assignment's id, and the signature over them."""
+    """What a workbook says it is: the variant's code, the assignment's id and version, the signature."""
 
     code: str
     assignment_id: str
     signature: str = ""
+    version: str = ""
 
 
 def claims_of(book: Book) -> Claims:
@@ -42,7 +51,7 @@ def claims_of(book: Book) -> Claims:
     code, assignment = said.get("variant_code", ""), said.get("assignment", "")
     if not code or not assignment:
         raise UnreadableError(book.name, "a workbook without our variant code", OUR_TEMPLATE)
-    return Claims(code, assignment, said.get("signature", ""))
+    return Claims(code, assignment, said.get("signature", ""), said.get("assignment_version", ""))
 
 
 def _pairs(sheet: Sheet) -> Iterator[tuple[str, str]]:
@@ -52,7 +61,12 @@ def _pairs(sheet: Sheet) -> Iterator[tuple[str, str]]:
             yield cell.text.strip().lower(), sheet.at((row, 2)).text.strip()
 
 
-def find_submission(book: Book, questions: Iterable[Question], template: Mapping[str, str] | None = None) -> Submission:
+def find_submission(
+    book: Book,
+    questions: Iterable[Question],
+    template: Mapping[str, str] | None = None,
+    points: Sequence[str] = (),
+) -> Submission:
     """Return the answers to these questions and the tracking table.
 
     Parameters
@@ -61,6 +75,8 @@ def find_submission(book: Book, questions: Iterable[Question], template: Mapping
     questions : iterable of Question
     template : mapping of str to str, optional
         Where the template has its answer cells, as `Answers!C7` by question id.
+    points : sequence of str, optional
+        The assignment's points, with which the names in the table are matched.
 
     Raises
     ------
@@ -68,23 +84,24 @@ def find_submission(book: Book, questions: Iterable[Question], template: Mapping
         When the workbook carries no variant code.
     """
     claims = claims_of(book)
-    answers = {q.id: _answer(book, q, (template or {}).get(q.id, "")) for q in questions}
-    tracking, flags = read_table(book)
+    labels = _labels(book)
+    answers = {q.id: _answer(book, labels, q, (template or {}).get(q.id, "")) for q in questions}
+    table = read_table(book, points)
     return Submission(
         name=book.name,
         assignment_id=claims.assignment_id,
         code=claims.code,
         answers=answers,
-        tracking=tracking,
-        flags=tuple(sorted({*book.flags, *flags, *_hidden(book)})),
+        tracking=table.columns,
+        flags=tuple(sorted({*book.flags, *table.flags, *_hidden(book)})),
         file_sha256=book.file_sha256,
-        content_sha256=_content_sha256(answers, tracking),
+        content_sha256=_content_sha256(answers, table.columns),
     )
 
 
-def _answer(book: Book, question: Question, address: str) -> Answer:
+def _answer(book: Book, labels: _Labels, question: Question, address: str) -> Answer:
     named = _by_reference(book, book.names.get(f"ans_{question.id}".lower(), ""))
-    labelled = _by_label(book, question)
+    labelled = _by_label(labels, question)
     if named is not None and not (labelled is not None and _has_shifted(*named, question, labelled)):
         unit = _by_reference(book, book.names.get(f"unit_{question.id}".lower(), ""))
         return _made(*named, unit[0].at(unit[1]) if unit else None, "name")
@@ -112,9 +129,16 @@ def _has_shifted(sheet: Sheet, place: Place, question: Question, labelled: Answe
 def _made(sheet: Sheet, place: Place, unit: BookCell | None, found_by: str) -> Answer:
     cell = sheet.at(place)
     unit_text = unit.text.strip() if unit is not None and unit.kind is Kind.TEXT else ""
+    unit_text = unit_text or _unit_shown(cell.format)
     return Answer(
         cell.kind, cell.number, cell.text.strip(), unit_text[:40], f"{sheet.name}!{address_of(place)}", found_by
     )
+
+
+def _unit_shown(code: str) -> str:
+    """Return the unit that a number format writes behind its number, as `0.00" m/s"` does; "" when it writes none."""
+    found = re.search(r'[0#?]"([^"]{1,20})"[^"]*$', code.partition(";")[0])
+    return found[1].strip() if found else ""
 
 
 def _by_reference(book: Book, reference: str) -> tuple[Sheet, Place] | None:
@@ -128,19 +152,52 @@ def _by_reference(book: Book, reference: str) -> tuple[Sheet, Place] | None:
     return (sheet, place) if sheet is not None else None
 
 
-def _by_label(book: Book, question: Question) -> Answer | None:
-    """Find a label, and the answer to the right of it; None when there is none, or more than one."""
+def _by_label(labels: _Labels, question: Question) -> Answer | None:
+    """Find a label, and the answer to the right of it; None when there is none.
+
+    Of several cells with the same label the first counts when they say the same, or one alone says anything;
+    otherwise it is left to a person.
+    """
+    several: list[Answer] = []
     for wanted in (question.label, question.symbol, question.id):
-        found = [
-            (sheet, place)
-            for sheet in book.sheets
-            if sheet.is_visible and not sheet.name.lower().startswith(_NO_ANSWERS)
-            for place, cell in sheet.cells.items()
-            if cell.kind is Kind.TEXT and wanted and _plain(cell.text) == _plain(wanted)
-        ]
-        if len(found) == 1:
-            return _beside(*found[0], question)
-    return None
+        found = labels.get(_plain(wanted), []) if wanted else []
+        answers = [_beside(sheet, place, question) for sheet, place in found]
+        said = {(a.kind, a.text, a.unit_text): a for a in reversed(answers) if a.kind is not Kind.BLANK}
+        if len(said) == 1 or len(answers) == 1:
+            return next(iter(said.values()), answers[0])
+        several = several or list(reversed(said.values()))
+    return _unclear(several) if several else None
+
+
+def _labels(book: Book) -> _Labels:
+    """Return where each text stands, by its plain form, on the sheets that may hold answers."""
+    labels: _Labels = {}
+    for sheet in book.sheets:
+        if sheet.is_visible and not sheet.name.lower().startswith(_NO_ANSWERS):
+            for place, cell in sheet.cells.items():
+                if cell.kind is Kind.TEXT:
+                    labels.setdefault(_plain(cell.text), []).append((sheet, place))
+    return labels
+
+
+def find_beside(book: Book, label: str) -> float | None:
+    """Return the one number to the right of a label on a visible sheet, such as a given one; None without one."""
+    found = {
+        cell.number
+        for sheet in book.sheets
+        if sheet.is_visible
+        for (row, column), text in sheet.cells.items()
+        if text.kind is Kind.TEXT and _plain(text.text) == _plain(label)
+        for cell in (sheet.at((row, column + step)) for step in range(1, _LABEL_REACH + 1))
+        if cell.kind is Kind.NUMBER
+    }
+    return found.pop() if len(found) == 1 else None
+
+
+def _unclear(answers: Sequence[Answer]) -> Answer:
+    """Return an answer that no one can read as a number: all that was found."""
+    text, where = (", ".join(getattr(a, name) for a in answers[:4]) for name in ("text", "where"))
+    return Answer(Kind.TEXT, None, text, "", where, SEVERAL)
 
 
 def _beside(sheet: Sheet, label: Place, question: Question) -> Answer:
@@ -163,9 +220,9 @@ def place_is_new(sheet: Sheet, place: Place, label: Place) -> bool:
 
 
 def _plain(text: str) -> str:
-    """Return a text for comparison: no case, no accents, no spaces, no punctuation at the end."""
-    straight = unicodedata.normalize("NFKC", text).casefold()
-    return re.sub(r"[\s_:=.]+", "", straight)
+    """Return a text for comparison: no case, no spaces, nothing in brackets, no punctuation at the end."""
+    straight = unicodedata.normalize("NFKC", text[:_LABEL_LENGTH]).casefold()
+    return re.sub(r"[\s_:=.]+", "", _IN_BRACKETS.sub("", straight) or straight)
 
 
 def _hidden(book: Book) -> set[str]:
@@ -173,11 +230,7 @@ def _hidden(book: Book) -> set[str]:
     return {"hidden-sheet"} if any(not s.is_visible and not s.name.startswith(ours) for s in book.sheets) else set()
 
 
-def _content_sha256(answers: Mapping[str, Answer], tracking: Mapping[str, object]) -> str:
+def _content_sha256(answers: Mapping[str, Answer], tracking: Mapping[str, FloatArray]) -> str:
     content = repr(sorted((k, a.kind.value, a.text, a.unit_text) for k, a in answers.items()))
-    columns = repr([(name, list(map(str, column))) for name, column in sorted(_lists(tracking).items())])
+    columns = repr([(name, list(map(str, column))) for name, column in sorted(tracking.items())])
     return hashlib.sha256((content + columns).encode()).hexdigest()
-
-
-def _lists(tracking: Mapping[str, object]) -> dict[str, list[float]]:
-    return {name: list(column) for name, column in tracking.items()}  # type: ignore[call-overload]

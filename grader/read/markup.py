@@ -24,11 +24,10 @@ def parse(content: bytes, start: Start, end: End | None = None, text: Text | Non
     RefusedError
         When it is no well-formed XML, declares a document type, or passes a limit.
     """
-    parser = expat.ParserCreate(namespace_separator=" ")
+    parser = expat.ParserCreate()
     parser.buffer_text = True
     parser.StartDoctypeDeclHandler = parser.EntityDeclHandler = _refuse_doctype
-    guard = _Guard(start, end)
-    parser.StartElementHandler, parser.EndElementHandler = guard.start, guard.end
+    parser.StartElementHandler, parser.EndElementHandler = _guarded(start, end)
     if text is not None:
         parser.CharacterDataHandler = text
     try:
@@ -43,28 +42,38 @@ def _refuse_doctype(*_: object) -> None:
     raise RefusedError("a workbook with a document type declaration", OUR_TEMPLATE)
 
 
-class _Guard:
-    def __init__(self, start: Start, end: End | None) -> None:
-        self._start, self._end = start, end
-        self._depth = self._count = 0
+def _guarded(start: Start, end: End | None) -> tuple[Start, End]:
+    """Wrap both handlers with the limits; closures, because they run twice for every cell."""
+    depth = count = 0
+    names = _LocalNames()
 
-    def start(self, name: str, attributes: Attributes) -> None:
-        self._depth += 1
-        self._count += 1
-        if self._depth > limits.XML_DEPTH or self._count > limits.XML_ELEMENTS:
+    def on_start(name: str, attributes: Attributes) -> None:
+        nonlocal depth, count
+        depth += 1
+        count += 1
+        if depth > limits.XML_DEPTH or count > limits.XML_ELEMENTS:
             raise RefusedError("a workbook with far too many cells", OUR_TEMPLATE)
-        self._start(_local(name), attributes)
+        start(names[name], attributes)
 
-    def end(self, name: str) -> None:
-        self._depth -= 1
-        if self._end is not None:
-            self._end(_local(name))
+    def on_end(name: str) -> None:
+        nonlocal depth
+        depth -= 1
+        if end is not None:
+            end(names[name])
+
+    return on_start, on_end
 
 
-def _local(name: str) -> str:
-    return name.rpartition(" ")[2]
+class _LocalNames(dict[str, str]):
+    """Names without their namespace; each is worked out once."""
+
+    def __missing__(self, name: str) -> str:
+        local = name.rpartition(":")[2]
+        if len(self) < limits.XML_NAMES:
+            self[name] = local
+        return local
 
 
 def plain(attributes: Attributes) -> dict[str, str]:
     """Return attributes without their namespaces."""
-    return {_local(name): value for name, value in attributes.items()}
+    return {name.rpartition(":")[2]: value for name, value in attributes.items()}

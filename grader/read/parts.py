@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import posixpath
 import re
 from dataclasses import dataclass, field
@@ -135,6 +136,7 @@ def _format(number: str, codes: dict[str, str]) -> str:
     return "date" if number.isascii() and number.isdigit() and int(number[:6]) in _BUILTIN_DATES else ""
 
 
+@functools.lru_cache(maxsize=1024)
 def shows_date(code: str) -> bool:
     """Tell whether a number format shows its number as a date or a time of day.
 

@@ -1,0 +1,203 @@
+"""A file may do to the reading process whatever it can: the batch goes on."""
+
+from __future__ import annotations
+
+import io
+import pickle
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from types import SimpleNamespace
+
+import pytest
+
+from grader.read import Reader, ReaderFailedError, ReadRequest, UnreadableError, limits, read_isolated, read_workbook
+from grader.read import worker as worker_module
+
+# A process that does as the file's first letter says, and reads every other file as usual.
+STUNTS = """
+import os, sys, time
+from grader.read import worker
+def stunt(request):
+    what = request.data[:1]
+    if what == b"K": os.kill(os.getpid(), 9)
+    if what == b"E": sys.exit(0)
+    if what == b"S": time.sleep(60)
+    if what == b"M": bytearray(2 * worker.limits.MEMORY_BYTES)
+    if what == b"G": worker._send(sys.stdout.buffer, b"no pickle")
+    if what == b"W": open(request.data[1:].decode(), "w").write("x")
+    if what == b"L": os.write(1, (2 ** 62).to_bytes(8, "little"))
+    if what == b"H": os.write(1, b"abc"); sys.exit(0)
+    if what == b"T": os.write(1, (99).to_bytes(8, "little")); sys.exit(0)
+    return plain(request)
+plain, worker.read_workbook = worker.read_workbook, stunt
+worker.serve()
+"""
+
+
+@pytest.fixture(scope="module")
+def reader():
+    with Reader() as opened:
+        yield opened
+
+
+def test_an_isolated_reader_reads_as_the_plain_one_does(reader, good_bytes):
+    request = ReadRequest("w.xlsx", good_bytes)
+    assert reader.read(request) == read_workbook(request) == read_isolated(request)
+
+
+@pytest.mark.parametrize("data", [b"", b"a;b\n1;2", b"%PDF", bytes(limits.FILE_BYTES + 1)])
+def test_a_refusal_comes_back_word_for_word(reader, data):
+    with pytest.raises(UnreadableError) as isolated:
+        reader.read(ReadRequest("w.xlsx", data))
+    with pytest.raises(UnreadableError) as plain:
+        read_workbook(ReadRequest("w.xlsx", data))
+    assert str(isolated.value) == str(plain.value)
+
+
+def test_threads_may_share_a_reader(reader, good_bytes):
+    with ThreadPoolExecutor(4) as pool:
+        books = list(pool.map(reader.read, [ReadRequest(f"{i}.xlsx", good_bytes) for i in range(8)]))
+    assert [book.name for book in books] == [f"{i}.xlsx" for i in range(8)]
+
+
+DEADLY = [
+    b"E",
+    b"H",
+    b"T",
+    b"L",
+    b"G",
+    pytest.param(b"K", marks=pytest.mark.skipif(sys.platform == "win32", reason="no signal 9")),
+    pytest.param(b"M", marks=pytest.mark.skipif(sys.platform != "linux", reason="memory is limited on Linux only")),
+]
+
+
+@pytest.fixture(scope="module")
+def stunt_reader():
+    with Reader(command=STUNTS) as opened:
+        yield opened
+
+
+@pytest.mark.parametrize("data", DEADLY)
+def test_a_file_that_ends_the_process_has_a_polite_line_and_the_next_is_read(stunt_reader, good_bytes, data):
+    with pytest.raises(UnreadableError, match=r"^w.xlsx: expected .* more memory or time .* Type your answers into"):
+        stunt_reader.read(ReadRequest("w.xlsx", data))
+    assert stunt_reader.read(ReadRequest("w.xlsx", good_bytes)).name == "w.xlsx"
+
+
+def test_a_silent_process_is_ended():
+    with Reader(wall_s=0.5, command=STUNTS) as reader, pytest.raises(UnreadableError, match="memory or time"):
+        reader.read(ReadRequest("w.xlsx", b"S"))
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows limits no file sizes")
+def test_the_process_can_write_no_file(stunt_reader, tmp_path):
+    with pytest.raises(UnreadableError):
+        stunt_reader.read(ReadRequest("w.xlsx", b"W" + str(tmp_path / "out").encode()))
+    assert not (tmp_path / "out").exists() or (tmp_path / "out").read_bytes() == b""
+
+
+def test_after_so_many_files_the_process_is_a_new_one():
+    started = []
+    with Reader(files_per_process=2) as reader:
+        for _ in range(4):
+            with pytest.raises(UnreadableError):
+                reader.read(ReadRequest("w.xlsx", b"x"))
+            started.append(reader._files_read)
+    assert started == [1, 0, 1, 0]
+
+
+def test_a_second_chance_in_a_fresh_process(monkeypatch):
+    """What other files left behind is not the fault of this one."""
+    reader, asked = Reader(), []
+
+    def ask(request):
+        asked.append(request.name)
+        reader._files_read += 1
+        return None if len(asked) < 3 else ("w", "x", "y")
+
+    monkeypatch.setattr(reader, "_ask", ask)
+    with pytest.raises(UnreadableError, match="memory or time"):
+        reader.read(ReadRequest("a", b"1"))
+    with pytest.raises(UnreadableError, match="got x"):
+        reader.read(ReadRequest("b", b"1"))
+    assert asked == ["a", "b", "b"]
+
+
+def test_a_process_that_dies_between_two_files_is_replaced(good_bytes):
+    with Reader() as reader:
+        reader.read(ReadRequest("w.xlsx", good_bytes))
+        reader._process.kill()
+        reader._process.wait()
+        assert reader.read(ReadRequest("w.xlsx", good_bytes)).name == "w.xlsx"
+
+
+def test_a_process_that_cannot_start_is_our_failure():
+    with pytest.raises(ReaderFailedError, match="cannot be started"), Reader(command="1/0") as reader:
+        reader.read(ReadRequest("w.xlsx", b"x"))
+
+
+class Stranger:
+    def __reduce__(self):
+        return print, ("run",)
+
+
+@pytest.mark.parametrize("answer", [Stranger(), SimpleNamespace(), 3])
+def test_nothing_but_cells_is_taken_from_the_process(answer):
+    assert worker_module._unpickled(pickle.dumps(answer)) is None
+    assert worker_module._unpickled(b"no pickle") is None
+
+
+# ---------------------------------------------------------------- inside the process
+
+
+class FakeLimits:
+    """The system's limits, without limiting the tests."""
+
+    RLIM_INFINITY = -1
+    RLIMIT_AS, RLIMIT_FSIZE, RLIMIT_CORE, RLIMIT_CPU = range(4)
+
+    def __init__(self, hard=-1, refuses=False):
+        self.set, self._hard, self._refuses = {}, hard, refuses
+
+    def getrlimit(self, which):
+        return self._hard, self._hard
+
+    def setrlimit(self, which, pair):
+        if self._refuses:
+            raise ValueError("not here")
+        self.set[which] = pair
+
+
+@pytest.mark.parametrize(("hard", "memory"), [(-1, limits.MEMORY_BYTES), (1000, 1000)])
+def test_the_process_limits_itself(monkeypatch, hard, memory):
+    fake = FakeLimits(hard)
+    monkeypatch.setattr(worker_module, "resource", fake)
+    worker_module.limit_process()
+    assert fake.set == {fake.RLIMIT_AS: (memory, memory), fake.RLIMIT_FSIZE: (0, 0), fake.RLIMIT_CORE: (0, 0)}
+    worker_module.limit_cpu(5)
+    soft, kept = fake.set[fake.RLIMIT_CPU]
+    assert soft > 5
+    assert kept == hard
+
+
+@pytest.mark.parametrize("fake", [FakeLimits(refuses=True), None])
+def test_a_system_without_limits_reads_all_the_same(monkeypatch, fake):
+    monkeypatch.setattr(worker_module, "resource", fake)
+    worker_module.limit_process()
+
+
+def test_the_process_answers_until_its_pipe_ends(monkeypatch, good_bytes):
+    requests, answers = io.BytesIO(), io.BytesIO()
+    for data in (good_bytes, b""):
+        worker_module._send(requests, pickle.dumps(ReadRequest("w.xlsx", data)))
+    requests.seek(0)
+    monkeypatch.setattr(sys, "stdin", SimpleNamespace(buffer=requests))
+    monkeypatch.setattr(sys, "stdout", SimpleNamespace(buffer=answers))
+    monkeypatch.setattr(worker_module, "resource", FakeLimits())
+    monkeypatch.setattr(worker_module.gc, "disable", lambda: None)
+    worker_module.serve()
+    answers.seek(0)
+    assert worker_module._received(answers) == b"ready"
+    assert worker_module._unpickled(worker_module._received(answers)).name == "w.xlsx"
+    assert worker_module._unpickled(worker_module._received(answers))[1] == "an empty file"
+    assert worker_module._received(answers) is None
