@@ -19,6 +19,7 @@ import json
 from collections import Counter
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
+from functools import cache
 
 from assignments.derive import FORMULAS
 from assignments.errors import NoVariantError
@@ -132,6 +133,7 @@ def _pick(draw: Draw, digest: bytes) -> float:
     return values[int.from_bytes(digest[:8], "big") % len(values)]
 
 
+@cache
 def grid_of(draw: Draw) -> tuple[float, ...]:
     """Return the values that can be drawn.
 

@@ -259,8 +259,8 @@ class Gradebook:
         """
         check_adjustment(assignment, adjustment)
         with self._engine.begin() as connection:
-            counting = {r.student.pid: r.attempt for r in effective_rows(connection, self._calendar, assignment.id)}
-            at = newest_attempt(connection, assignment.id, pid, counting.get(pid))
+            counting = effective_rows(connection, self._calendar, assignment.id, pid)
+            at = newest_attempt(connection, assignment.id, pid, counting[0].attempt) if counting else None
             if at is None:
                 hint = "See: vml gradebook show."
                 raise InputError(pid, f"a student whose {assignment.id} was graded", "none", hint)
@@ -270,7 +270,8 @@ class Gradebook:
 
     def row(self, assignment_id: str, pid: str) -> Row:
         """Return the effective grade of one student, who was graded."""
-        return next(row for row in self.rows(assignment_id) if row.student.pid == pid)
+        with self._reader.connect() as connection:
+            return effective_rows(connection, self._calendar, assignment_id, pid)[0]
 
     def note_unreadable(self, receipt: int, file_sha256: str, reason: str) -> None:
         """Record that a file came in that could not be graded."""

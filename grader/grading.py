@@ -7,11 +7,11 @@ a run that was killed goes on with what still waits.
 from __future__ import annotations
 
 import datetime as dt
-import time
 from collections import Counter
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 from assignments.course import Course
 from assignments.load import load_assignment
@@ -19,19 +19,18 @@ from assignments.model import AnswerKey, Assignment
 from assignments.terms import Terms
 from grader.errors import UnknownVariantError
 from grader.feedback import Report, class_page, feedback_page
-from grader.grade import grade
 from grader.gradebook import Gradebook, Row
 from grader.inbox import keep, kept_name, received_bytes
-from grader.model import Grade, Submission
-from grader.plausible import settle_readings
-from grader.read import ReadRequest, claims_of, find_submission, read_isolated
+from grader.marking import Marked, MarkOrder, ReadOrder, Understood, mark, understand
+from grader.model import Grade
 from grader.receipts import Arrived, Receipt, handed_in_at
 from grader.signed import is_signed
-from grader.template import template_cells
 from vml_course.errors import FileMissingError, VmlError
+from vml_course.executors import Crew, each_done, open_executor
 
 FEEDBACK = "feedback"
 FILES = "files"  # the source of what no platform sent
+SMALLEST_BATCH = 16
 Progress = Callable[[int, int], None]
 
 
@@ -80,14 +79,23 @@ class Wanted:
         Whether the students' pages show true values and curves; None: when nobody can hand in any more.
     received : datetime or None
         When files that no platform sent were handed in; None: nobody knows, and they count as in time.
+    workers : int
+        Processes that work at the same time.
+    cluster : str
+        Address of a dask scheduler that does the work instead; `local:N` starts one.
     """
 
     show_truth: bool | None = None
     received: dt.datetime | None = None
+    workers: int = 1
+    cluster: str = ""
+
+
+USUAL = Wanted()
 
 
 def grade_files(
-    course: Course, files: Iterable[Path], wanted: Wanted | None = None, *, progress: Progress | None = None
+    course: Course, files: Iterable[Path], wanted: Wanted = USUAL, *, progress: Progress | None = None
 ) -> list[Graded]:
     """Grade files, record what they earned, write a page for each student and one for the class.
 
@@ -99,7 +107,7 @@ def grade_files(
     course : Course
     files : iterable of Path
         Files, or folders, of which every file is taken.
-    wanted : Wanted, optional
+    wanted : Wanted
     progress : callable, optional
         `(files done, files in all)`.
 
@@ -114,31 +122,23 @@ def grade_files(
         When none of the files exists.
     """
     listed = listed_files(files)
-    with Gradebook.open(course) as book:
-        marker = _Marker(course, book, wanted or Wanted())
-        graded: dict[Path, Graded] = {}
-        for done, file in enumerate(sorted(listed, key=_changed), start=1):
-            graded[file] = marker.mark_file(file)
-            if progress is not None:
-                progress(done, len(listed))
+    with Gradebook.open(course) as book, open_executor(wanted.workers, wanted.cluster) as crew:
+        marker = _Marker(course, book, crew, wanted)
+        in_order = sorted(listed, key=_changed)
+        graded = dict(zip(in_order, marker.mark_files(in_order, progress or _silent), strict=True))
         return marker.finish([graded[file] for file in listed])
 
 
 def grade_collected(
-    course: Course, assignment_id: str, wanted: Wanted | None = None, *, progress: Progress | None = None
+    course: Course, assignment_id: str, wanted: Wanted = USUAL, *, progress: Progress | None = None
 ) -> list[Graded]:
     """Grade what was collected for an assignment and not graded yet, in the order in which it was handed in.
 
     As `grade_files`.
     """
-    with Gradebook.open(course) as book:
-        marker = _Marker(course, book, wanted or Wanted())
-        waiting, graded = book.receipts("collected", assignment_id), []
-        for done, receipt in enumerate(waiting, start=1):
-            graded.append(marker.mark_receipt(receipt))
-            if progress is not None:
-                progress(done, len(waiting))
-        return marker.finish(graded)
+    with Gradebook.open(course) as book, open_executor(wanted.workers, wanted.cluster) as crew:
+        marker = _Marker(course, book, crew, wanted)
+        return marker.finish(marker.mark_receipts(book.receipts("collected", assignment_id), progress or _silent))
 
 
 def write_class_page(
@@ -183,28 +183,31 @@ def _changed(file: Path) -> float:
 
 
 class _Marker:
-    """Takes file after file and writes what it earned."""
+    """Takes files in batches: workers read and judge them, this process writes what they earned, one after the other."""
 
-    def __init__(self, course: Course, book: Gradebook, wanted: Wanted) -> None:
-        self._course, self._book, self._wanted = course, book, wanted
+    def __init__(self, course: Course, book: Gradebook, crew: Crew, wanted: Wanted) -> None:
+        self._course, self._book, self._crew, self._wanted = course, book, crew, wanted
         self._now = dt.datetime.now(dt.UTC)
 
-    def mark_file(self, file: Path) -> Graded:
-        """Keep a file that somebody named, and grade it."""
-        try:
-            data = received_bytes(file)
-        except VmlError as error:
-            return Graded(file, "unreadable", str(error))
-        arrived = Arrived(keep(self._course.shelf, data), file.name, FILES, self._now.isoformat())
-        return replace(self._mark(Receipt(self._book.receive(arrived), arrived), data), file=file)
+    def mark_files(self, files: Sequence[Path], progress: Progress) -> list[Graded]:
+        """Keep the files that somebody named, and grade them; return what became of each."""
+        kept = [self._keep(file) for file in files]
+        graded = self.mark_receipts([one for one in kept if isinstance(one, Receipt)], progress)
+        done = iter(graded)
+        return [
+            replace(next(done), file=file) if isinstance(one, Receipt) else one
+            for file, one in zip(files, kept, strict=True)
+        ]
 
-    def mark_receipt(self, receipt: Receipt) -> Graded:
-        """Grade a file that was collected."""
-        try:
-            data = self._course.shelf.read(kept_name(receipt.arrived.file_sha256))
-        except VmlError as error:
-            return Graded(Path(receipt.arrived.name), "unreadable", str(error), receipt.arrived.pid)
-        return self._mark(receipt, data)
+    def mark_receipts(self, receipts: Sequence[Receipt], progress: Progress) -> list[Graded]:
+        """Grade files that were kept; return what became of each."""
+        graded: list[Graded] = []
+        size = max(SMALLEST_BATCH, 2 * self._crew.most_under_way)
+        for start in range(0, len(receipts), size):
+            for one in self._marked(receipts[start : start + size]):
+                graded.append(one)
+                progress(len(graded), len(receipts))
+        return graded
 
     def finish(self, graded: Sequence[Graded]) -> list[Graded]:
         """Write the class pages; say so where several files of one student came in together."""
@@ -214,37 +217,67 @@ class _Marker:
             write_class_page(self._course, self._book, self._load(assignment_id), unreadable)
         return result
 
-    def _mark(self, receipt: Receipt, data: bytes) -> Graded:
-        name = receipt.arrived.name
+    def _keep(self, file: Path) -> Receipt | Graded:
         try:
-            submission, assignment, key = self._understood(ReadRequest(name, data))
+            data = received_bytes(file)
         except VmlError as error:
-            self._book.note_unreadable(receipt.id, receipt.arrived.file_sha256, str(error))
-            return Graded(Path(name), "unreadable", str(error), receipt.arrived.pid, receipt.arrived.assignment)
-        started = time.monotonic()
-        submission = settle_readings(submission, {q.id: q for q in assignment.questions}, key.values)
-        result = grade(submission, key, assignment)
+            return Graded(file, "unreadable", str(error))
+        arrived = Arrived(keep(self._course.shelf, data), file.name, FILES, self._now.isoformat())
+        return Receipt(self._book.receive(arrived), arrived)
+
+    def _marked(self, receipts: Sequence[Receipt]) -> Iterator[Graded]:
+        orders = [self._order(receipt) for receipt in receipts]
+        read = [
+            self._with_key(order, result) for order, result in zip(orders, self._all(understand, orders), strict=True)
+        ]
+        marked = iter(self._all(mark, [one for one in read if isinstance(one, MarkOrder)]))
+        for receipt, one in zip(receipts, read, strict=True):
+            result = next(marked) if isinstance(one, MarkOrder) else one
+            if isinstance(one, MarkOrder) and isinstance(result, Marked):
+                yield self._record(receipt, one, result)
+            else:
+                yield self._refuse(receipt, str(result))
+
+    def _order(self, receipt: Receipt) -> ReadOrder:
+        data = self._course.shelf.read(kept_name(receipt.arrived.file_sha256))
+        return ReadOrder(receipt.arrived.name, data, self._course.assignments)
+
+    def _with_key(self, order: ReadOrder, read: object) -> MarkOrder | object:
+        """Add what is true to what was read; whoever's code it is, it must carry this course's signature."""
+        if not isinstance(read, Understood):
+            return read
+        claims = read.claims
+        try:
+            key = self._book.key_for_code(claims.code, order.name)
+            if not is_signed(self._course, key, claims):
+                raise UnknownVariantError(order.name, claims.code)
+            if read.assignment.id != key.assignment_id:  # the hidden sheet was changed: the key knows better
+                read = understand(replace(order, assignment=key.assignment_id))
+        except VmlError as error:
+            return error
+        return MarkOrder(read.submission, key, read.assignment)
+
+    def _all(self, work: Callable[[Any], Any], orders: Sequence[Any]) -> list[object]:
+        """Return what became of each order, in their order: a result, or the error that stopped it."""
+        done = {id(order): future for order, future in each_done(self._crew, work, orders)}
+        errors = ((done[id(order)], done[id(order)].exception()) for order in orders)
+        return [future.result() if error is None else _polite(error) for future, error in errors]
+
+    def _record(self, receipt: Receipt, order: MarkOrder, marked: Marked) -> Graded:
+        submission, assignment, key = marked.submission, order.assignment, order.key
         terms = self._course.calendar.terms_of(assignment.id, key.student)
-        took_ms = round(1000 * (time.monotonic() - started))
+        received = self._received(receipt, terms)
         attempt = self._book.record_run(
-            submission, result, received_at=self._received(receipt, terms), receipt=receipt.id, took_ms=took_ms
+            submission, marked.grade, received_at=received, receipt=receipt.id, took_ms=marked.took_ms
         )
         row = self._book.row(assignment.id, key.student)
-        page = self._page(Report(assignment, submission, key, result, attempt), row, terms)
-        return _graded(name, result, key, row, attempt, page)
+        page = self._page(Report(assignment, submission, key, marked.grade, attempt), row, terms)
+        return _graded(receipt.arrived.name, marked.grade, key, row, attempt, page)
 
-    def _understood(self, request: ReadRequest) -> tuple[Submission, Assignment, AnswerKey]:
-        book = read_isolated(request)
-        claims = claims_of(book)
-        key = self._book.key_for_code(claims.code, request.name)
-        if not is_signed(self._course, key, claims):
-            raise UnknownVariantError(request.name, claims.code)
-        assignment = self._load(key.assignment_id)
-        return (
-            find_submission(book, assignment.questions, template_cells(assignment), assignment.points),
-            assignment,
-            key,
-        )
+    def _refuse(self, receipt: Receipt, reason: str) -> Graded:
+        arrived = receipt.arrived
+        self._book.note_unreadable(receipt.id, arrived.file_sha256, reason)
+        return Graded(Path(arrived.name), "unreadable", reason, arrived.pid, arrived.assignment)
 
     def _load(self, assignment_id: str) -> Assignment:
         return load_assignment(assignment_id, self._course.assignments)
@@ -283,6 +316,19 @@ def _graded(name: str, result: Grade, key: AnswerKey, row: Row, attempt: int, pa
         is_provisional=result.is_provisional,
         feedback=page,
     )
+
+
+def _polite(error: BaseException) -> str:
+    """Say what stopped a file; what is our fault is said to be."""
+    if isinstance(error, VmlError):
+        return str(error)
+    return (
+        f"The grader failed on this file ({type(error).__name__}: {error}); it is not your fault. A person will look."
+    )
+
+
+def _silent(_done: int, _total: int) -> None:
+    """Tell nobody."""
 
 
 def _with_siblings(graded: Sequence[Graded]) -> list[Graded]:

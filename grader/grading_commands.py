@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import datetime as dt
 import getpass
+import os
 from collections import Counter
 from collections.abc import Iterable
 from dataclasses import asdict
@@ -80,6 +81,12 @@ def grade(
         ),
     ] = None,
     received: ReceivedOption = None,
+    workers: Annotated[
+        int, typer.Option(min=0, max=512, help="Processes that work at the same time; 0 is one for each core.")
+    ] = 0,
+    cluster: Annotated[
+        str, typer.Option(metavar="ADDRESS", help="A dask scheduler that does the work; local:N starts one.")
+    ] = "",
     as_json: JsonOption = False,
 ) -> None:
     """Grade workbooks, keep the grades, write a feedback page for each student and one for the class.
@@ -95,7 +102,7 @@ def grade(
 
     opened = open_course(course)
     moment = received and received.replace(tzinfo=received.tzinfo or opened.calendar.zone)
-    wanted = Wanted(show_truth, moment)
+    wanted = Wanted(show_truth, moment, workers or _usual_workers(files), cluster)
     with resumable(), progress("grading") as show:
         if files:
             graded = grade_files(opened, files, wanted, progress=show)
@@ -107,6 +114,12 @@ def grade(
         _print_graded(graded, opened.shelf.place())
     if any(item.needs_attention for item in graded):
         raise typer.Exit(1)
+
+
+def _usual_workers(files: list[Path] | None) -> int:
+    """Return one worker for each core; none for a handful of files, which are graded before workers have started."""
+    is_few = bool(files) and not any(file.is_dir() for file in files or ()) and len(files or ()) < 20
+    return 1 if is_few else os.cpu_count() or 1
 
 
 def _print_graded(graded: Iterable[Graded], place: str) -> None:

@@ -156,7 +156,9 @@ def add_run(connection: Connection, submission_id: int, code: str, grade: Grade,
         connection.execute(insert(tables.criterion_score).values(**score))
 
 
-def effective_rows(connection: Connection, calendar: Calendar, assignment_id: str | None = None) -> tuple[Row, ...]:
+def effective_rows(
+    connection: Connection, calendar: Calendar, assignment_id: str | None = None, pid: str | None = None
+) -> tuple[Row, ...]:
     """Return of each student and assignment what counts: a pure function of runs, decisions and terms.
 
     Of each attempt its newest run speaks. Attempts are as old as the first arrival of their content, so an old file
@@ -172,6 +174,9 @@ def effective_rows(connection: Connection, calendar: Calendar, assignment_id: st
     ).select_from(joined)
     if assignment_id is not None:
         wanted = wanted.where(tables.assignment.c.slug == assignment_id)
+    if pid is not None:
+        student = select(tables.student.c.id).where(tables.student.c.pid == pid).scalar_subquery()
+        wanted = wanted.where(tables.variant.c.student_id == student)
     newest: dict[tuple[str, int], dict[int, Any]] = {}
     for run in connection.execute(wanted.order_by(tables.submission.c.attempt, tables.grade_run.c.id)).mappings():
         newest.setdefault((run["slug"], run["student_id"]), {})[run["submission_id"]] = run

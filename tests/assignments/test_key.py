@@ -73,5 +73,12 @@ def test_a_key_survives_being_kept(truth: Truth) -> None:
     assert to_json(again) == to_json(key)
     np.testing.assert_array_equal(again.xy_px, truth.xy_px)
     assert again.points == truth.points
+    assert again.scene == "soccer_kick"
     assert again.expected_sd["e"] == 0.002
     assert math.isnan(again.expected_sd["I"])
+
+
+def test_a_key_of_the_first_version_is_that_of_a_kick(truth: Truth) -> None:
+    content = to_json(answer_key(KICK, VARIANT, truth, None, "0" * 64))
+    del content["scene"]
+    assert from_json(content).scene == "soccer_kick"
