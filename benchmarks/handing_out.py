@@ -196,14 +196,13 @@ def _span(seconds):
 
 
 def print_growth(assignment, sizes):
-    print("Processor seconds a student and memory of the process that hands out, by size of the class (2 workers):")
+    print("Processor seconds a student, by size of the class (2 workers, their start included):")
     for count in sizes:
         found = pace(assignment, count, 2)
         each = statistics.fmean(cost_of(item.release).cpu_s_each for item in found.weighed)
-        own = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / MEBIBYTE
         again = sum(len(item.release.refused) for item in found.weighed)
         print(
-            f"  {count:4} students: {each:.2f} s, {found.per_minute:6.1f}/min, {own:.0f} MiB, {again} drawn again",
+            f"  {count:4} students: {each:.2f} s, {found.per_minute:6.1f}/min, {again} drawn again",
             flush=True,
         )
 
