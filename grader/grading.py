@@ -183,7 +183,7 @@ def _changed(file: Path) -> float:
 
 
 class _Marker:
-    """Takes files in batches: workers read and judge them, this process writes what they earned, one after the other."""
+    """Takes files in batches: workers read and judge them, this process writes what they earned."""
 
     def __init__(self, course: Course, book: Gradebook, crew: Crew, wanted: Wanted) -> None:
         self._course, self._book, self._crew, self._wanted = course, book, crew, wanted
