@@ -14,7 +14,7 @@ from assignments.terms import Calendar, Extension, Late, Terms
 HOUR = 3600.0
 DUE = dt.datetime(2026, 5, 1, 22, 0, tzinfo=dt.UTC)
 
-lates = st.builds(
+late_rules = st.builds(
     Late,
     rule=st.sampled_from(["none", "fixed", "linear", "steps"]),
     share=st.floats(0, 1),
@@ -25,17 +25,17 @@ lates = st.builds(
 )
 
 
-@given(lates, st.floats(-1e6, 1e8))
+@given(late_rules, st.floats(-1e6, 1e8))
 def test_no_rule_takes_off_less_than_nothing_or_more_than_its_cap(late: Late, late_s: float) -> None:
     assert 0.0 <= late.share_off(late_s) <= late.cap
 
 
-@given(lates, st.floats(-1e6, 0))
+@given(late_rules, st.floats(-1e6, 0))
 def test_what_is_in_time_loses_nothing(late: Late, late_s: float) -> None:
     assert late.share_off(late_s) == 0.0
 
 
-@given(lates.filter(lambda late: late.rule != "steps"), st.floats(0, 1e7), st.floats(0, 1e7))
+@given(late_rules.filter(lambda late: late.rule != "steps"), st.floats(0, 1e7), st.floats(0, 1e7))
 def test_later_never_costs_less(late: Late, one: float, other: float) -> None:
     assert late.share_off(min(one, other)) <= late.share_off(max(one, other))
 
