@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+import re
 import zipfile
 from collections.abc import Iterator
 
@@ -38,7 +39,7 @@ def _headers(good: bytes, _: dict[str, bytes], rng: random.Random) -> bytes:
     data = bytearray(good)
     for _ in range(rng.randint(1, 3)):
         mark = rng.choice([b"PK\x01\x02", b"PK\x03\x04", b"PK\x05\x06"])
-        places = [at for at in range(len(good) - 50) if good[at] == 80 and good[at : at + 4] == mark] or [0]
+        places = [found.start() for found in re.finditer(mark, good[:-50])] or [0]
         data[rng.choice(places) + rng.randrange(4, 48)] = rng.choice([0, 1, 8, 127, 255, rng.randrange(256)])
     return bytes(data)
 

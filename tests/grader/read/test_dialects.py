@@ -110,6 +110,14 @@ def test_a_long_formula_costs_no_more_than_a_short_one():
     assert book.sheets[0].at((1, 1)).number == 1
 
 
+def test_a_coloured_column_of_many_rows_is_no_attack():
+    data = corpus.Dialect().write({"s": [[1.0]]})
+    rows = "".join(f'<row r="{i}"><c r="A{i}" s="1"/></row>' for i in range(2, 30_000))
+    sheet = f'<worksheet><sheetData><row r="1"><c r="A1"><v>7</v></c></row>{rows}</sheetData></worksheet>'
+    book = read_workbook(ReadRequest("w", corpus.with_parts(data, **{"xl/worksheets/sheet1.xml": sheet.encode()})))
+    assert (book.flags, len(book.sheets[0].cells)) == ((), 1)
+
+
 # ---------------------------------------------------------------- laws
 
 VALUES = st.one_of(
