@@ -14,6 +14,9 @@ from vml_course.model.reading import UNITS, Reading, read_number, read_quantity
 _EXACT_DIGITS = 6  # a number with this many digits was computed, not rounded by a person
 
 
+_WRITTEN = re.compile(r"[\s(]*[-+−]?(?P<body>[\d., ]*\d)(?:[eE](?P<e>[-+]?\d{1,9}))?(?P<ten> ?[·*x×] ?10)?")
+
+
 @dataclass(frozen=True)
 class Stated:
     """A number that could be read.
@@ -103,7 +106,7 @@ def _from_text(answer: Answer, text: str, question: Question) -> Stated | Unstat
     try:
         reading = read_quantity(text, question.dimension, question.unit, name=question.label)
     except UncalibratedUnitError:
-        return _in_pixels(text)
+        return _in_pixels(text, question)
     except AmbiguousNumberError as error:
         return Unstated(Outcome.UNSURE, f"'{answer.text}' can be read in two ways. {error.hint}".strip())
     except InputError as error:
@@ -113,11 +116,10 @@ def _from_text(answer: Answer, text: str, question: Question) -> Stated | Unstat
     return Stated(reading.value, _half_unit(text, reading, question), shown, not reading.unit_assumed)
 
 
-def _in_pixels(text: str) -> Stated | Unstated:
-    number = re.match(r"[^A-Za-zµμ]*", text.strip())
+def _in_pixels(text: str, question: Question) -> Stated | Unstated:
     try:
-        value = read_number(number.group() if number else "")
-    except InputError as error:
+        value = read_quantity(text, f"pixel_{question.dimension}", name=question.label).value
+    except InputError as error:  # the value is in metres and its uncertainty in pixels
         return _unreadable(error)
     return Stated(value, 0.0, text.strip(), unit_given=True, in_pixels=True)
 
@@ -129,9 +131,14 @@ def _unreadable(error: InputError) -> Unstated:
 
 def _half_unit(text: str, reading: Reading, question: Question) -> float:
     """Return half of the last written digit in SI; 0 for zero, and for a number that no person rounded."""
-    found = re.match(r"\s*[-+−]?([\d]*)(?:[.,](\d*))?(?:[eE]([-+]?\d+))?", text)
-    if found is None or reading.value == 0 or len((found[1] or "").lstrip("0") + (found[2] or "")) >= _EXACT_DIGITS:
+    found = _WRITTEN.match(text)
+    if found is None or found["ten"] or reading.value == 0:
         return 0.0
-    decimals = len(found[2] or "") - int(found[3] or 0)
+    body = found["body"]
+    if len(re.sub(r"\D", "", body).lstrip("0")) >= _EXACT_DIGITS:
+        return 0.0
+    mark = max(body.rfind("."), body.rfind(","))
+    decimals = len(body) - mark - 1 if mark >= 0 else 0
+    power = int(found["e"] or 0) - decimals
     factor = UNITS[question.dimension].get(reading.unit, 0.0)
-    return 0.5 * 10.0**-decimals * factor if abs(decimals) < 300 else 0.0
+    return 0.5 * 10.0**power * factor if abs(power) < 300 else 0.0

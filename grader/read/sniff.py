@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from grader.read.errors import SAVE_AS, RefusedError
+from grader.read.errors import OUR_TEMPLATE, SAVE_AS, RefusedError
 from grader.read.limits import FILE_BYTES
 
 _OLE = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1"
@@ -16,6 +16,7 @@ _SIGNATURES = (
     (b"\x1f\x8b", "a gzip archive"),
     (b"{\\rtf", "a text document (RTF)"),
     (b"ID3", "a sound file"),
+    (b"L\0\0\0\x01\x14\x02\0", "a shortcut to a file"),
 )
 
 
@@ -56,6 +57,8 @@ def _ole(data: bytes) -> RefusedError:
         return RefusedError(
             "a password-protected workbook", "Remove the password (File, Info, Protect) and save it again."
         )
+    if "WordDocument".encode("utf-16-le") in data:
+        return RefusedError("an old Word document (.doc)", OUR_TEMPLATE)
     return RefusedError("an old Excel workbook (.xls)", SAVE_AS)
 
 
@@ -64,6 +67,8 @@ def _text(data: bytes) -> RefusedError:
     start = head.lstrip(b"\xef\xbb\xbf \t\r\n").lower()
     if start.startswith((b"<!doctype html", b"<html", b"<table")):
         return RefusedError("a web page", SAVE_AS)
+    if start.startswith(b"{") and b"doc_id" in start:
+        return RefusedError("a link to an online document", "There choose File, Download, Microsoft Excel (.xlsx).")
     if start.startswith(b"<?xml"):
         return RefusedError("an XML file", SAVE_AS)
     if b"\0" in head and not head.startswith((b"\xff\xfe", b"\xfe\xff")):

@@ -1,0 +1,215 @@
+"""Where answers are found when names are lost, and what odd cells are said to be."""
+
+from __future__ import annotations
+
+import io
+from dataclasses import replace
+
+import corpus
+import openpyxl
+import pytest
+
+from grader.model import Answer, Kind, Outcome
+from grader.plausible import settle_readings
+from grader.read import ReadRequest, UnreadableError, claims_of, find_submission, read_workbook
+from grader.read.locate import find_beside
+from grader.read.sheet import _EPOCH, _date_text
+from grader.stated import Stated, Unstated, state
+
+META = [["assignment", "soccer-kick"], ["variant_code", "CODE1"], ["assignment_version", "1"]]
+LABEL = "Coefficient of restitution"
+
+
+def book_of(answers, **others):
+    return read_workbook(ReadRequest("w.xlsx", corpus.Dialect().write({"Answers": answers, **others, "_meta": META})))
+
+
+def answer_of(assignment, answers, question="e", template=None, **others):
+    return find_submission(book_of(answers, **others), assignment.questions, template).answer(question)
+
+
+@pytest.mark.parametrize(
+    "label", [LABEL, "coefficient of  RESTITUTION:", f"{LABEL} (e)", f"{LABEL} [-] =", "Ｃoefficient of restitution"]
+)
+def test_a_label_is_known_however_it_is_written(assignment, label):
+    assert answer_of(assignment, [[label, "e", 0.73]]).number == 0.73
+
+
+def test_of_equal_answers_under_one_label_the_first_counts(assignment):
+    found = answer_of(assignment, [[LABEL, "e", 0.73], [LABEL, 0.73], [LABEL]])
+    assert (found.number, found.where) == (0.73, "Answers!C1")
+
+
+def test_different_answers_under_one_label_are_left_to_a_person(assignment):
+    found = answer_of(assignment, [[LABEL, 0.73], ["x"], [LABEL, 0.5]], template={"e": "Answers!B1"})
+    stated = state(found, assignment.question("e"))
+    assert isinstance(stated, Unstated)
+    assert stated.outcome is Outcome.UNSURE
+    assert stated.reason.startswith("Several cells carry this label (Answers!B1, Answers!B3)")
+
+
+def test_the_symbol_decides_where_the_label_stands_twice(assignment):
+    found = answer_of(assignment, [[LABEL, 0.73], [LABEL, 0.5], ["e", 0.6]])
+    assert found.number == 0.6
+
+
+def test_an_empty_cell_beside_a_label_is_blank(assignment):
+    assert answer_of(assignment, [[LABEL, "e"]]).kind is Kind.BLANK
+    assert answer_of(assignment, [[LABEL]]).where == "Answers!B1"
+
+
+def test_an_address_on_a_sheet_that_is_gone_finds_nothing(assignment):
+    assert answer_of(assignment, [[1.0]], template={"e": "Elsewhere!A1"}) == Answer()
+    assert answer_of(assignment, [[1.0]], template={"e": "Answers"}) == Answer()
+
+
+def test_a_unit_in_the_number_format_counts(desk):
+    book = openpyxl.load_workbook(io.BytesIO(desk.good), rich_text=True)
+    sheet, place = next(book.defined_names["ans_v_f1"].destinations)
+    book[sheet][place].number_format = '0.00" cm/s"'
+    row = book[sheet][place].row
+    book[sheet].cell(row, 4).value = None
+    content = io.BytesIO()
+    book.save(content)
+    answer = desk.read(content.getvalue()).answer("v_f1")
+    assert answer.unit_text == "cm/s"
+    stated = state(answer, desk.assignment.question("v_f1"))
+    assert stated.value == pytest.approx(desk.truth["v_f1"] / 100)
+    assert stated.unit_given
+
+
+def test_what_is_no_range_is_merged_with_nothing(assignment):
+    data = corpus.Dialect().write({"Answers": [["e", 0.5, None, 0.7]], "_meta": META})
+    sheet = corpus.members(data)["xl/worksheets/sheet1.xml"]
+    merges = b'<mergeCells><mergeCell ref="B1:C1"/><mergeCell ref="#REF!"/><mergeCell/></mergeCells></worksheet>'
+    parts = {"xl/worksheets/sheet1.xml": sheet.replace(b"</worksheet>", merges)}
+    assert read_workbook(ReadRequest("w", corpus.with_parts(data, **parts))).sheets[0].merges == ((1, 2, 1, 3),)
+
+
+def test_a_name_is_cut_and_a_text_between_names_belongs_to_none():
+    data = corpus.Dialect().write({"Answers": [["e", 0.5]], "_meta": META}, {"ans_e": "A" * 5000})
+    directory = corpus.members(data)["xl/workbook.xml"].replace(b"<definedNames>", b"<calcPr/>text<definedNames>")
+    book = read_workbook(ReadRequest("w", corpus.with_parts(data, **{"xl/workbook.xml": directory})))
+    assert set(book.names) == {"ans_e"}
+
+
+def test_the_meta_sheet_says_its_version():
+    assert claims_of(book_of([["x"]])).version == "1"
+
+
+@pytest.mark.parametrize("meta", [[], [["variant_code", "X"]], [["assignment", "soccer-kick"]]])
+def test_a_workbook_that_is_not_ours_is_told_so(meta):
+    data = corpus.Dialect().write({"Answers": [["x"]], "_meta": meta})
+    with pytest.raises(UnreadableError, match="without our variant code"):
+        claims_of(read_workbook(ReadRequest("w.xlsx", data)))
+
+
+def test_a_given_number_is_found_beside_its_label():
+    book = book_of([["L", 0.5]], Instructions=[["Mass of the ball", "m", 0.35, "kg"]])
+    assert find_beside(book, "mass of the ball") == 0.35
+    assert find_beside(book, "Diameter") is None
+
+
+# ---------------------------------------------------------------- odd cells
+
+
+@pytest.mark.parametrize(
+    ("answer", "outcome", "words"),
+    [
+        (Answer(), Outcome.WRONG, "Nothing is written"),
+        (Answer(Kind.BOOL, text="TRUE"), Outcome.WRONG, "TRUE or FALSE"),
+        (Answer(Kind.ERROR, text="#DIV/0!"), Outcome.WRONG, "#DIV/0!"),
+        (Answer(Kind.UNCACHED), Outcome.UNSURE, "Ctrl+Alt+F9"),
+        (Answer(Kind.DATE, 45413.0, "2024-05-01"), Outcome.UNSURE, "a date, 2024-05-01 and holds the number 45413"),
+        (Answer(Kind.DATE, None, "2024-05-01"), Outcome.UNSURE, "a date, 2024-05-01: the spreadsheet"),
+        (Answer(Kind.TEXT, text="1,234"), Outcome.UNSURE, "can be read in two ways. Write 1.234 or 1234."),
+        (Answer(Kind.TEXT, text="about 15"), Outcome.UNSURE, "A person will look at it."),
+        (Answer(Kind.TEXT, text="px/s"), Outcome.UNSURE, "A person will look at it."),
+        (Answer(Kind.TEXT, text="1,234 px/s"), Outcome.UNSURE, "can be read in two ways."),
+        (Answer(Kind.TEXT, text="15 m/s ± 3 px/s"), Outcome.UNSURE, "A person will look at it."),
+        (Answer(Kind.NUMBER, 3.0, "3", "furlong"), Outcome.UNSURE, "A person will look at it."),
+    ],
+)
+def test_a_cell_that_says_no_quantity_has_a_reason(assignment, answer, outcome, words):
+    stated = state(answer, assignment.question("v_f1"))
+    assert isinstance(stated, Unstated)
+    assert stated.outcome is outcome
+    assert words in stated.reason
+
+
+@pytest.mark.parametrize(
+    ("text", "unit"),
+    [("450 px/s", ""), ("450", "px/s"), ("4.5e2 pixels/s", ""), ("4.5·10^2", "px/s"), ("(450 ± 3) px/s", "")],
+)
+def test_pixels_are_taken_for_what_they_are(assignment, text, unit):
+    stated = state(Answer(Kind.TEXT, None, text, unit), assignment.question("v_f1"))
+    assert isinstance(stated, Stated)
+    assert (stated.value, stated.in_pixels, stated.unit_given) == (450.0, True, True)
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "half"),
+    [
+        ("15", "m/s", 0.5),
+        ("15.2", "m/s", 0.05),
+        ("15,20", "cm/s", 5e-5),
+        ("1.5e1", "m/s", 0.5),
+        ("0", "m/s", 0.0),
+        ("15.20000", "m/s", 0.0),
+        (".5", "m/s", 0.05),
+        ("1e-305", "m/s", 0.0),
+        ("(15.2 ± 1)", "m/s", 0.05),
+        ("1 234.5", "m/s", 0.05),
+        ("1.234,5", "m/s", 0.05),
+        ("1,234,567", "m/s", 0.0),
+        ("0.00730", "m/s", 5e-6),
+        ("1.5·10^1", "m/s", 0.0),
+    ],
+)
+def test_half_of_the_last_digit(assignment, text, unit, half):
+    stated = state(Answer(Kind.TEXT, None, text, unit), assignment.question("v_f1"))
+    assert stated.half_unit == pytest.approx(half)
+
+
+@pytest.mark.parametrize(
+    ("days", "text"),
+    [(45413.0, "2024-05-01"), (0.0625, "01:30:00"), (0.0, "00:00:00"), (-1e9, ""), (1e9, ""), (1.0, "1899-12-31")],
+)
+def test_days_are_said_as_a_date(days, text):
+    assert _date_text(days, _EPOCH) == text
+
+
+# ---------------------------------------------------------------- commas
+
+
+def settled(assignment, question, text, truth=None, unit=""):
+    data = corpus.Dialect().write({"Answers": [[question, text, unit]], "_meta": META})
+    submission = find_submission(read_workbook(ReadRequest("w", data)), assignment.questions)
+    questions = {q.id: q for q in assignment.questions}
+    return settle_readings(submission, questions, truth).answer(question).read_as
+
+
+@pytest.mark.parametrize(
+    ("question", "text", "truth", "read_as"),
+    [
+        ("e", "1,234", None, "1.234"),
+        ("I", "1,234", None, "1.234"),
+        ("v_f1", "9,703", None, "9.703"),
+        ("fps", "1,200", None, "1200"),
+        ("px_per_m", "1,234", None, ""),
+        ("px_per_m", "1,234", {"px_per_m": 1200.0}, "1234"),
+        ("px_per_m", "1,234", {"px_per_m": 0.0}, ""),
+        ("v_f1", "9,703 px/s", None, ""),
+        ("v_f1", "9,703 and 1,234", None, ""),
+        ("v_f1", "15,5", None, ""),
+        ("v_f1", "9,703 quux", None, ""),
+    ],
+)
+def test_a_comma_is_settled_where_one_reading_alone_is_plausible(assignment, question, text, truth, read_as):
+    assert settled(assignment, question, text, truth) == read_as
+
+
+def test_a_check_without_range_settles_nothing(assignment):
+    questions = {"e": replace(assignment.question("e"), check="other")}
+    submission = find_submission(book_of([["e", "1,234"]]), questions.values())
+    assert settle_readings(submission, questions).answer("e").read_as == ""

@@ -1,0 +1,120 @@
+"""Every hostile or foreign file ends in one polite line, after little work."""
+
+from __future__ import annotations
+
+import zipfile
+import zlib
+
+import corpus
+import pytest
+
+from grader.read import ReadRequest, UnreadableError, claims_of, container, limits, markup, read_workbook
+
+
+def refusal(data: bytes) -> str:
+    with pytest.raises(UnreadableError) as caught:
+        read_workbook(ReadRequest("w.xlsx", data))
+    message = str(caught.value)
+    assert message.startswith("w.xlsx: expected an Excel workbook (.xlsx), got ")
+    assert message.isprintable()
+    assert caught.value.hint
+    return message
+
+
+@pytest.fixture
+def work(monkeypatch):
+    """How many bytes were unpacked and how many bytes of markup were read."""
+    done = {"unpacked": 0, "parsed": 0}
+    unpack, create = container._unpack, markup.expat.ParserCreate
+
+    def counted(packed, member):
+        content = unpack(packed, member)
+        done["unpacked"] += len(content)
+        return content
+
+    class Parser:
+        def __init__(self):
+            object.__setattr__(self, "inner", create())
+
+        def __setattr__(self, name, value):
+            setattr(self.inner, name, value)
+
+        def Parse(self, content, is_final):  # noqa: N802 - expat's name
+            done["parsed"] += len(content)
+            return self.inner.Parse(content, is_final)
+
+    monkeypatch.setattr(container, "_unpack", counted)
+    monkeypatch.setattr(markup.expat, "ParserCreate", Parser)
+    return done
+
+
+@pytest.mark.filterwarnings("ignore:Duplicate name")
+@pytest.mark.parametrize("name", corpus.HOSTILE)
+def test_a_hostile_file_is_refused_before_much_work_is_done(good_bytes, work, name):
+    make, words = corpus.HOSTILE[name]
+    assert words in refusal(make(good_bytes))
+    assert work["unpacked"] < 2**20
+    assert work["parsed"] < 2**18
+
+
+@pytest.mark.parametrize("name", corpus.OTHER_FORMATS)
+def test_another_format_is_named_for_what_it_is(good_bytes, name):
+    make, words = corpus.OTHER_FORMATS[name]
+    assert words in refusal(make(good_bytes))
+
+
+@pytest.mark.parametrize("folder", ["", "Doe Jane_4711_assignsubmission_file/"])
+def test_one_workbook_in_a_zip_is_unwrapped_once(good_bytes, folder):
+    data = corpus.pack({f"{folder}w.xlsx": good_bytes, "__MACOSX/._w.xlsx": b"x", "notes.txt": b"x"})
+    book = read_workbook(ReadRequest("w.zip", data))
+    assert book.flags == ("zipped",)
+    assert claims_of(book).assignment_id == "soccer-kick"
+
+
+@pytest.mark.parametrize("at", [26, 28])
+def test_a_part_that_would_lie_beyond_the_file_is_an_incomplete_upload(good_bytes, at):
+    data = bytearray(good_bytes)
+    last = data.rindex(b"PK\x03\x04")
+    data[last + at : last + at + 2] = b"\xff\xff"
+    assert "incomplete" in refusal(bytes(data))
+
+
+def test_a_header_that_is_none_is_an_incomplete_upload(good_bytes):
+    data = bytearray(good_bytes)
+    data[data.rindex(b"PK\x03\x04")] = 0
+    assert "incomplete" in refusal(bytes(data))
+
+
+def test_damaged_packing_is_a_damaged_workbook(good_bytes):
+    name, content = b"[Content_Types].xml", b"<a/>"
+    packed = b"\xff" * 20
+    body = corpus.local(name, packed, len(content), zlib.crc32(content))
+    data = corpus.raw_archive([(name, packed, len(content), zlib.crc32(content), 0)], body)
+    with pytest.raises(container.RefusedError, match="damaged"):
+        container.open_container(data).read("[content_types].xml")
+    assert "missing" in refusal_of_part(data, "xl/absent.xml")
+
+
+def refusal_of_part(data: bytes, name: str) -> str:
+    with pytest.raises(container.RefusedError) as caught:
+        container.open_container(data).read(name)
+    return str(caught.value)
+
+
+def test_a_stored_part_is_read_as_it_is(good_bytes):
+    stored = corpus.pack(corpus.members(good_bytes), zipfile.ZIP_STORED)
+    assert claims_of(read_workbook(ReadRequest("w.xlsx", stored))).code == "CODE1"
+
+
+def test_many_cells_over_several_sheets_are_refused(good_bytes, monkeypatch):
+    grid = [[1.0] * 10] * 10
+    data = corpus.Dialect().write({"a": grid, "b": grid, "c": grid})
+    monkeypatch.setattr(limits, "CELLS", 250)
+    assert "more than 250 cells" in refusal(data)
+
+
+def test_strange_names_do_not_grow_the_memory(monkeypatch):
+    monkeypatch.setattr(limits, "XML_NAMES", 2)
+    seen = []
+    markup.parse(b"<a><x:b xmlns:x='u'/><c/><d/><d/></a>", lambda name, _: seen.append(name))
+    assert seen == ["a", "b", "c", "d", "d"]
