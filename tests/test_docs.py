@@ -11,7 +11,7 @@ from vml_course.cli import run
 ROOT = Path(__file__).parent.parent
 DOCUMENTS = ("README.md", "CONTRIBUTING.md", *sorted(str(p.relative_to(ROOT)) for p in ROOT.glob("*/README.md")))
 LINKED = re.compile(r"\]\((?!https?:)([^)#]+)\)")
-GROUPS = ("course", "gradebook")
+GROUPS = ("course", "gradebook", "assignment", "roster")
 
 
 def commands():
