@@ -141,6 +141,18 @@ def grade_collected(
         return marker.finish(marker.mark_receipts(book.receipts("collected", assignment_id), progress or _silent))
 
 
+def grade_again(
+    course: Course, assignment_id: str, wanted: Wanted = USUAL, *, progress: Progress | None = None
+) -> list[Graded]:
+    """Grade everything of an assignment anew that was graded before, as after a change of the grader or an assignment.
+
+    Runs are added, attempts stay; what students were told changes with the next release only, which says how.
+    """
+    with Gradebook.open(course) as book, open_executor(wanted.workers, wanted.cluster) as crew:
+        marker = _Marker(course, book, crew, wanted)
+        return marker.finish(marker.mark_receipts(book.receipts("graded", assignment_id), progress or _silent))
+
+
 def write_class_page(
     course: Course, gradebook: Gradebook, assignment: Assignment, unreadable: Sequence[tuple[str, str]] = ()
 ) -> str:

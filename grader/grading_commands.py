@@ -73,6 +73,9 @@ def grade(
         list[Path] | None, typer.Argument(help="Workbooks, or folders of workbooks; without any, what was collected.")
     ] = None,
     assignment: Annotated[str, typer.Option(metavar="ID", help="Of what was collected, only this assignment's.")] = "",
+    again: Annotated[
+        str, typer.Option(metavar="ID", help="Grade everything of this assignment anew; release says what it changes.")
+    ] = "",
     show_truth: Annotated[
         bool | None,
         typer.Option(
@@ -98,13 +101,15 @@ def grade(
     Example: vml grade returned/*.xlsx --course dynamics-2026
     """
     from assignments.course import open_course
-    from grader.grading import Wanted, grade_collected, grade_files
+    from grader.grading import Wanted, grade_again, grade_collected, grade_files
 
     opened = open_course(course)
     moment = received and received.replace(tzinfo=received.tzinfo or opened.calendar.zone)
     wanted = Wanted(show_truth, moment, workers or _usual_workers(files), cluster)
     with resumable(), progress("grading") as show:
-        if files:
+        if again:
+            graded = grade_again(opened, again, wanted, progress=show)
+        elif files:
             graded = grade_files(opened, files, wanted, progress=show)
         else:
             graded = grade_collected(opened, assignment, wanted, progress=show)

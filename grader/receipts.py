@@ -79,16 +79,15 @@ def handed_in_at(terms: Terms, told: dt.datetime | None, *, is_late: bool | None
 
 
 def add_receipt(connection: Connection, arrived: Arrived) -> int:
-    """Add a receipt; the same bytes of the same name and student again are the same receipt."""
+    """Add a receipt; the same bytes of the same name, and student and assignment where known, are the same receipt."""
     table = tables.receipt
     student = connection.scalar(select(tables.student.c.id).where(tables.student.c.pid == arrived.pid))
-    same = select(table.c.id).where(
-        (table.c.file_sha256 == arrived.file_sha256)
-        & (table.c.original_name == arrived.name)
-        & (table.c.assignment == arrived.assignment)
-        & (table.c.student_id == student if student is not None else table.c.student_id.is_(None))
-    )
-    known = connection.scalar(same)
+    same = (table.c.file_sha256 == arrived.file_sha256) & (table.c.original_name == arrived.name)
+    if arrived.assignment:
+        same &= table.c.assignment == arrived.assignment
+    if student is not None:
+        same &= table.c.student_id == student
+    known = connection.scalar(select(table.c.id).where(same))
     if known is not None:
         return int(known)
     line = {
@@ -111,12 +110,20 @@ def add_receipt(connection: Connection, arrived: Arrived) -> int:
 def settle_receipt(
     connection: Connection, receipt: int, status: Status, reason: str = "", submission: int | None = None
 ) -> None:
-    """Write what became of a file."""
+    """Write what became of a file; what was graded is known to be its student's."""
     table = tables.receipt
-    told = {"status": status, "reason": reason}
+    told: dict[str, object] = {"status": status, "reason": reason}
     if submission is not None:
-        told["submission_id"] = submission  # type: ignore[assignment]  # a column of numbers
+        whose = _whose(connection, submission)
+        told |= {"submission_id": submission, "student_id": whose[0], "assignment": whose[1]}
     connection.execute(update(table).where(table.c.id == receipt).values(**told))
+
+
+def _whose(connection: Connection, submission: int) -> tuple[int, str]:
+    joined = tables.submission.join(tables.variant).join(tables.assignment)
+    wanted = select(tables.variant.c.student_id, tables.assignment.c.slug).select_from(joined)
+    row = connection.execute(wanted.where(tables.submission.c.id == submission)).one()
+    return int(row[0]), str(row[1])
 
 
 def receipts_with(connection: Connection, status: Status, assignment: str = "") -> tuple[Receipt, ...]:

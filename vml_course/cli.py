@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import io
+import os
 import sys
 from importlib.metadata import entry_points
 
 import typer
 
 from vml_course.errors import VmlError
+
+DEBUG_VARIABLE = "VML_DEBUG"
+"""Set to anything, a failure of ours ends in its traceback instead of one line."""
 
 
 def build_app() -> typer.Typer:
@@ -30,11 +34,19 @@ def _group() -> None:
 
 
 def main(arguments: list[str] | None = None) -> None:
-    """Run `vml` and end the process: 0 done, 1 some items need attention, 2 wrong input, 130 stopped."""
+    """Run `vml` and end the process: 0 done, 1 some items need attention, 2 wrong input, 3 our failure, 130 stopped."""
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):  # a Windows pipe may know no sigma; better a ? than a traceback
             stream.reconfigure(errors="replace")
-    sys.exit(run(arguments))
+    try:
+        code = run(arguments)
+    except Exception as error:
+        if os.environ.get(DEBUG_VARIABLE):
+            raise
+        what = f"{type(error).__name__}: {error}"
+        _say(f"vml: failed, and it is not your fault ({what}). To see where, run it again with {DEBUG_VARIABLE}=1 set.")
+        code = 3
+    sys.exit(code)
 
 
 def run(arguments: list[str] | None = None) -> int:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import datetime as dt
 import json
 import zipfile
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import pytest
@@ -16,8 +16,9 @@ from assignments.variants import signature_of
 from assignments.workbook import fill_workbook, write_workbook
 from grader.collect import collect
 from grader.errors import CollectError, NothingGradedError
+from grader.grade import grade
 from grader.gradebook import Gradebook
-from grader.grading import Wanted, grade_collected, grade_files
+from grader.grading import Wanted, grade_again, grade_collected, grade_files
 from grader.receipts import handed_in_at
 from grader.releasing import release_grades, released_grades
 from grader.roster import Enrolled
@@ -230,6 +231,43 @@ def test_a_release_fixes_what_counts_and_the_next_one_says_what_changed(term: Te
     with Gradebook.open(term.course) as book:
         assert [one.points < full for one in released_grades(book, SLUG)] == [True, False]
         assert book.is_whole()
+
+
+def test_grading_again_adds_runs_and_a_release_says_what_changes(term: Term, monkeypatch) -> None:
+    path = term.course.folder / "w.xlsx"
+    for i in range(2):
+        path.write_bytes(term.file(i))
+        grade_files(term.course, [path])
+    release_grades(term.course, SLUG, who="tutor")
+    monkeypatch.setattr("grader.marking.grade", lambda *what: replace(grade(*what), points=7.0))
+    again = grade_again(term.course, SLUG)
+    assert [item.points for item in again] == [7.0, 7.0]
+    changes = release_grades(term.course, SLUG, who="tutor", dry_run=True)
+    assert [(change.before == change.out_of, change.after) for change in changes] == [(True, 7.0)] * 2
+    assert [_row(term, i).attempts for i in range(2)] == [1, 1]
+    assert run(["grade", "--again", SLUG, "--course", str(term.course.folder), "--workers", "1"]) == 0
+
+
+def test_a_file_that_is_named_twice_has_one_receipt(term: Term) -> None:
+    path = term.course.folder / "w.xlsx"
+    path.write_bytes(term.file(0))
+    for _ in range(2):
+        grade_files(term.course, [path])
+    with Gradebook.open(term.course) as book:
+        (receipt,) = book.receipts("graded", SLUG)
+    assert receipt.arrived.pid == term.pids[0]
+
+
+def test_several_workers_grade_as_one_does(term: Term) -> None:
+    folder = term.course.folder / "all"
+    folder.mkdir()
+    for i in range(3):
+        (folder / f"{i}.xlsx").write_bytes(term.file(i, **({"e": 0.1} if i else {})))
+    (folder / "x.xlsx").write_bytes(b"no")
+    alone = grade_files(term.course, [folder])
+    together = grade_files(term.course, [folder], Wanted(workers=2))
+    assert together == alone
+    assert [item.status for item in alone] == ["ok", "ok", "ok", "unreadable"]
 
 
 def test_nothing_graded_cannot_be_released(term: Term) -> None:
