@@ -2,7 +2,7 @@
 BIN := .venv/bin
 SETUP_FILES := pyproject.toml constraints.txt tools/setup.sh
 
-.PHONY: help demo test check accuracy bench gallery clean
+.PHONY: help demo test check accuracy bench mutants gallery clean
 
 help:
 	@echo "make demo      simulate, hand out, measure and grade a sample course (3 students)"
@@ -10,6 +10,7 @@ help:
 	@echo "make check     lint, types and import contracts only (before every push)"
 	@echo "make accuracy  the long accuracy runs against known truth"
 	@echo "make bench     the benchmarks"
+	@echo "make mutants   change the arithmetic of grades one bit at a time and see that a test notices"
 	@echo "make gallery   the pictures of all scenes in docs/"
 	@echo "make clean     remove the virtual environment and caches"
 
@@ -38,8 +39,13 @@ accuracy: .venv/.dev
 bench: .venv/.dev
 	@for script in benchmarks/*.py; do echo "== $$script"; $(BIN)/python $$script || exit 1; done
 
+mutants: .venv/.dev
+	$(BIN)/pip install --quiet --disable-pip-version-check "mutmut>=3.3"
+	$(BIN)/mutmut run
+	$(BIN)/mutmut results
+
 gallery: .venv/.dev
 	$(BIN)/python tools/gallery.py
 
 clean:
-	rm -rf .venv .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache
+	rm -rf .venv mutants .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache

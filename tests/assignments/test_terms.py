@@ -44,6 +44,9 @@ def test_later_never_costs_less(late: Late, one: float, other: float) -> None:
     ("late", "hours", "off"),
     [
         (Late("none"), 1000, 0.0),
+        (Late("none", share=0.3), 1000, 0.0),
+        (Late("fixed", share=0.3), 1 / 3600, 0.3),
+        (Late("fixed", share=0.3), 0, 0.0),
         (Late("fixed", share=0.2), 0.001, 0.2),
         (Late("fixed", share=0.2), 1000, 0.2),
         (Late("linear", share=0.1, per_hours=24), 0.001, 0.1),
@@ -101,3 +104,9 @@ def test_a_due_date_reads_as_students_read_it_in_the_zone_of_the_course() -> Non
     calendar = Calendar("America/New_York", {"kick": Terms(due=DUE), "bat": Terms()})
     assert calendar.due_text("kick") == "Friday 1 May 2026, 18:00 (America/New_York)"
     assert calendar.due_text("bat") == ""
+
+
+def test_a_students_own_due_date_is_told_with_the_extension() -> None:
+    calendar = Calendar("UTC", {"kick": Terms(due=DUE)}, (Extension("ann", "ill", hours=24),))
+    assert calendar.due_text("kick", "ann") == "Saturday 2 May 2026, 22:00 (UTC)"
+    assert calendar.due_text("kick", "ben") == calendar.due_text("kick") == "Friday 1 May 2026, 22:00 (UTC)"

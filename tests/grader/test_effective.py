@@ -48,6 +48,10 @@ def test_lateness_takes_its_share_of_what_was_earned() -> None:
     assert result == Effective(1, 10.0, 0.2, 8.0)
 
 
+def test_a_small_grade_loses_the_same_share() -> None:
+    assert effective(_attempts((0.5, 0.5)), Terms(due=DUE, late=TENTH_AN_HOUR)) == Effective(1, 0.5, 0.1, 0.45)
+
+
 def test_the_mean_is_of_what_is_left_of_each() -> None:
     result = effective(_attempts((-1, 10.0), (1, 10.0)), Terms(due=DUE, counts="mean", late=TENTH_AN_HOUR))
     assert (result.earned, result.points) == (10.0, 9.5)

@@ -1,0 +1,100 @@
+"""What a person decides about an attempt: the arithmetic."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from assignments.load import load_assignment
+from grader.adjust import TOTAL, Adjustment, Standing, check_adjustment, settle
+from grader.model import Outcome
+from vml_course.errors import InputError, UnknownNameError
+
+KICK = load_assignment("soccer-kick")
+BEFORE = Standing(
+    9.0,
+    {"e": (6.0, 6.0), "I": (3.0, 6.0)},
+    {"e": Outcome.UNSURE, "I": Outcome.PARTIAL},
+    ("Unsure about e.", "The workbook carries macros."),
+)
+
+
+def _set(question: str, points: float, reason: str = "seen on paper") -> Adjustment:
+    return Adjustment(question, points, reason, "ann", "2026-05-01T10:00:00+00:00")
+
+
+@pytest.mark.parametrize(
+    ("points", "outcome"),
+    [(6.0, Outcome.RIGHT), (5.99, Outcome.PARTIAL), (0.01, Outcome.PARTIAL), (0.0, Outcome.WRONG)],
+)
+def test_a_question_that_was_set_counts_as_set_and_is_unsure_no_more(points: float, outcome: Outcome) -> None:
+    after = settle(BEFORE, [_set("e", points)])
+    assert after.points == pytest.approx(3.0 + points)
+    assert after.worth == {"e": (points, 6.0), "I": (3.0, 6.0)}
+    assert after.outcomes == {"e": outcome, "I": Outcome.PARTIAL}
+    assert after.reasons == ("The workbook carries macros.",)
+
+
+def test_another_question_leaves_what_is_unsure_unsure() -> None:
+    after = settle(BEFORE, [_set("I", 6.0)])
+    assert (after.points, after.outcomes["e"], after.reasons) == (12.0, Outcome.UNSURE, BEFORE.reasons)
+
+
+def test_the_newest_decision_on_a_question_counts() -> None:
+    assert settle(BEFORE, [_set("e", 1.0), _set("e", 4.0)]) == settle(BEFORE, [_set("e", 4.0)])
+
+
+def test_a_total_settles_the_whole_attempt() -> None:
+    after = settle(BEFORE, [_set(TOTAL, 12.5)])
+    assert (after.points, after.reasons) == (12.5, ())
+    assert after.outcomes == {"e": Outcome.PARTIAL, "I": Outcome.PARTIAL}
+    assert after.worth == BEFORE.worth
+
+
+def test_a_question_set_after_the_total_changes_it() -> None:
+    assert settle(BEFORE, [_set(TOTAL, 12.0), _set("I", 4.0)]).points == 13.0
+
+
+def test_a_question_that_this_attempt_does_not_have_changes_nothing() -> None:
+    assert settle(BEFORE, [_set("omega", 4.0)]) == BEFORE
+
+
+def test_nothing_decided_changes_nothing() -> None:
+    assert settle(BEFORE, []) == BEFORE
+
+
+@given(st.lists(st.tuples(st.sampled_from(["e", "I"]), st.floats(0, 6)), max_size=6))
+def test_points_are_the_sum_of_the_questions(decisions: list[tuple[str, float]]) -> None:
+    after = settle(BEFORE, [_set(question, points) for question, points in decisions])
+    assert after.points == pytest.approx(sum(points for points, _ in after.worth.values()), abs=1e-5)
+
+
+def test_a_decision_says_who_when_what_and_why() -> None:
+    assert str(_set("e", 4.5)) == "e set to 4.5 by ann on 2026-05-01: seen on paper"
+
+
+@pytest.mark.parametrize(("question", "points"), [("e", 0.0), ("e", 6.0), (TOTAL, 20.0)])
+def test_what_can_be_given_is_accepted(question: str, points: float) -> None:
+    check_adjustment(KICK, _set(question, points))
+
+
+@pytest.mark.parametrize(
+    ("question", "points", "reason", "words"),
+    [
+        ("e", 6.01, "x", "points: expected 0 to 6 for e, got 6.01"),
+        ("e", -0.01, "x", "points: expected 0 to 6 for e, got -0.01"),
+        (TOTAL, 20.01, "x", "points: expected 0 to 20 for total, got 20.01"),
+        ("e", 1.0, " ", "reason: expected why the points are given, got nothing. Say it with --reason."),
+        ("e", float("nan"), "x", "points: expected 0 to 6 for e, got nan"),
+    ],
+)
+def test_what_cannot_be_given_is_one_line(question: str, points: float, reason: str, words: str) -> None:
+    with pytest.raises(InputError) as caught:
+        check_adjustment(KICK, _set(question, points, reason))
+    assert str(caught.value).rstrip(".") == words.rstrip(".")
+
+
+def test_an_unknown_question_is_told_with_those_known() -> None:
+    with pytest.raises(UnknownNameError, match=r"question: expected one of px_per_m, .*, total, got 'mass'"):
+        check_adjustment(KICK, _set("mass", 1.0))
