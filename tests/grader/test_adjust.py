@@ -52,6 +52,11 @@ def test_a_total_settles_the_whole_attempt() -> None:
     assert after.worth == BEFORE.worth
 
 
+def test_a_total_leaves_what_was_sure_as_it_was() -> None:
+    sure = Standing(9.0, BEFORE.worth, {"e": Outcome.RIGHT, "I": Outcome.WRONG}, ())
+    assert settle(sure, [_set(TOTAL, 12.0)]).outcomes == sure.outcomes
+
+
 def test_a_question_set_after_the_total_changes_it() -> None:
     assert settle(BEFORE, [_set(TOTAL, 12.0), _set("I", 4.0)]).points == 13.0
 
