@@ -19,14 +19,16 @@ from grader.stated import Stated, state
 from vml_course.model.arrays import FloatArray
 
 USUAL: Mapping[str, tuple[float, float]] = {
-    "restitution": (0.0, 1.2),
+    "e": (0.0, 1.2),
+    "mu": (0.0, 1.5),
     "inertia": (1e-6, 100.0),
+    "mass": (1e-6, 100.0),
     "scale": (1.0, 1e5),
     "rate": (10.0, 1e5),
     "velocity": (-300.0, 300.0),
     "angular_velocity": (-1000.0, 1000.0),
 }
-"""What a quantity can be, in SI units and with its sign, by the name of its check."""
+"""What a quantity can be, in SI units and with its sign: by the question's id, else by its dimension."""
 
 _ARMS = (("omega1", "v_f1", "L"), ("omega2", "v_f2", "L"))  # speed = angular velocity times length
 _PIVOT, _END = "knee", "foot"
@@ -81,7 +83,7 @@ def remarks_on(book: Book, submission: Submission, assignment: Assignment) -> It
 
 def _unusual(told: _Told, assignment: Assignment) -> Iterator[str]:
     for question in assignment.questions:
-        low, high = USUAL.get(question.check, (-np.inf, np.inf))
+        low, high = USUAL.get(question.id, USUAL.get(question.dimension, (-np.inf, np.inf)))
         value = told.values.get(question.id, low)
         if not low <= value <= high:
             yield f"{question.symbol} = {value:.4g} {question.unit}".rstrip() + " is unusual: check sign and unit."

@@ -134,10 +134,16 @@ class Reader:
 
 
 @functools.cache
-def _shared_reader() -> Reader:
+def _shared_reader(process: int) -> Reader:
+    """Return the reader of a process; one that was forked may not speak through its parent's pipes."""
     reader = Reader()
-    atexit.register(reader.close)
+    atexit.register(_close_own, reader, process)
     return reader
+
+
+def _close_own(reader: Reader, process: int) -> None:
+    if os.getpid() == process:
+        reader.close()
 
 
 def read_isolated(request: ReadRequest) -> Book:
@@ -147,7 +153,7 @@ def read_isolated(request: ReadRequest) -> Book:
     ------
     UnreadableError, ReaderFailedError
     """
-    return _shared_reader().read(request)
+    return _shared_reader(os.getpid()).read(request)
 
 
 # ---------------------------------------------------------------- messages

@@ -209,7 +209,7 @@ def test_a_comma_is_settled_where_one_reading_alone_is_plausible(assignment, que
     assert settled(assignment, question, text, truth) == read_as
 
 
-def test_a_check_without_range_settles_nothing(assignment):
-    questions = {"e": replace(assignment.question("e"), check="other")}
+def test_a_dimension_without_range_settles_nothing(assignment):
+    questions = {"e": replace(assignment.question("e"), dimension="time")}
     submission = find_submission(book_of([["e", "1,234"]]), questions.values())
     assert settle_readings(submission, questions).answer("e").read_as == ""

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import io
+import os
 import pickle
 import sys
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from multiprocessing import get_context
 from types import SimpleNamespace
 
 import pytest
@@ -201,3 +203,21 @@ def test_the_process_answers_until_its_pipe_ends(monkeypatch, good_bytes):
     assert worker_module._unpickled(worker_module._received(answers)).name == "w.xlsx"
     assert worker_module._unpickled(worker_module._received(answers))[1] == "an empty file"
     assert worker_module._received(answers) is None
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="this system knows no fork")
+def test_a_forked_process_has_a_reader_of_its_own(good_bytes):
+    """Two that speak through the same pipes would get one another's answers."""
+    here = worker_module._shared_reader(os.getpid())
+    read_isolated(ReadRequest("w.xlsx", good_bytes))
+    with ProcessPoolExecutor(1, mp_context=get_context("fork")) as pool:
+        assert pool.submit(_own_process).result() != here._process.pid
+
+
+def _own_process() -> int:
+    reader = worker_module._shared_reader(os.getpid())
+    reader._start()
+    try:
+        return reader._process.pid
+    finally:
+        reader.close()
