@@ -7,6 +7,7 @@ a run that was killed goes on with what still waits.
 from __future__ import annotations
 
 import datetime as dt
+import os
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -23,7 +24,7 @@ from grader.gradebook import Gradebook, Row
 from grader.inbox import keep, kept_name, received_bytes
 from grader.marking import Marked, MarkOrder, ReadOrder, Understood, mark, understand
 from grader.model import Grade
-from grader.receipts import Arrived, Receipt, handed_in_at
+from grader.receipts import Arrived, Receipt, Status, handed_in_at
 from grader.signed import is_signed
 from vml_course.errors import FileMissingError, VmlError
 from vml_course.executors import Crew, each_done, open_executor
@@ -80,7 +81,7 @@ class Wanted:
     received : datetime or None
         When files that no platform sent were handed in; None: nobody knows, and they count as in time.
     workers : int
-        Processes that work at the same time.
+        Processes that work at the same time; 0 is one for each core where there is enough to do.
     cluster : str
         Address of a dask scheduler that does the work instead; `local:N` starts one.
     """
@@ -89,6 +90,10 @@ class Wanted:
     received: dt.datetime | None = None
     workers: int = 1
     cluster: str = ""
+
+    def crew_for(self, files: int) -> Crew:
+        """Return who does the work: a process costs as much to start as thirty workbooks to grade."""
+        return open_executor(self.workers or min(os.cpu_count() or 1, 1 + files // 60), self.cluster)
 
 
 USUAL = Wanted()
@@ -122,7 +127,7 @@ def grade_files(
         When none of the files exists.
     """
     listed = listed_files(files)
-    with Gradebook.open(course) as book, open_executor(wanted.workers, wanted.cluster) as crew:
+    with Gradebook.open(course) as book, wanted.crew_for(len(listed)) as crew:
         marker = _Marker(course, book, crew, wanted)
         in_order = sorted(listed, key=_changed)
         graded = dict(zip(in_order, marker.mark_files(in_order, progress or _silent), strict=True))
@@ -136,9 +141,7 @@ def grade_collected(
 
     As `grade_files`.
     """
-    with Gradebook.open(course) as book, open_executor(wanted.workers, wanted.cluster) as crew:
-        marker = _Marker(course, book, crew, wanted)
-        return marker.finish(marker.mark_receipts(book.receipts("collected", assignment_id), progress or _silent))
+    return _grade_kept(course, "collected", assignment_id, wanted, progress or _silent)
 
 
 def grade_again(
@@ -148,9 +151,15 @@ def grade_again(
 
     Runs are added, attempts stay; what students were told changes with the next release only, which says how.
     """
-    with Gradebook.open(course) as book, open_executor(wanted.workers, wanted.cluster) as crew:
-        marker = _Marker(course, book, crew, wanted)
-        return marker.finish(marker.mark_receipts(book.receipts("graded", assignment_id), progress or _silent))
+    return _grade_kept(course, "graded", assignment_id, wanted, progress or _silent)
+
+
+def _grade_kept(course: Course, status: Status, assignment_id: str, wanted: Wanted, progress: Progress) -> list[Graded]:
+    with Gradebook.open(course) as book:
+        receipts = book.receipts(status, assignment_id)
+        with wanted.crew_for(len(receipts)) as crew:
+            marker = _Marker(course, book, crew, wanted)
+            return marker.finish(marker.mark_receipts(receipts, progress))
 
 
 def write_class_page(

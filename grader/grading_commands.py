@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import datetime as dt
 import getpass
-import os
 from collections import Counter
 from collections.abc import Iterable
 from dataclasses import asdict
@@ -85,7 +84,10 @@ def grade(
     ] = None,
     received: ReceivedOption = None,
     workers: Annotated[
-        int, typer.Option(min=0, max=512, help="Processes that work at the same time; 0 is one for each core.")
+        int,
+        typer.Option(
+            min=0, max=512, help="Processes that work at the same time; 0 is one for each core, where worthwhile."
+        ),
     ] = 0,
     cluster: Annotated[
         str, typer.Option(metavar="ADDRESS", help="A dask scheduler that does the work; local:N starts one.")
@@ -105,7 +107,7 @@ def grade(
 
     opened = open_course(course)
     moment = received and received.replace(tzinfo=received.tzinfo or opened.calendar.zone)
-    wanted = Wanted(show_truth, moment, workers or _usual_workers(files), cluster)
+    wanted = Wanted(show_truth, moment, workers, cluster)
     with resumable(), progress("grading") as show:
         if again:
             graded = grade_again(opened, again, wanted, progress=show)
@@ -119,12 +121,6 @@ def grade(
         _print_graded(graded, opened.shelf.place())
     if any(item.needs_attention for item in graded):
         raise typer.Exit(1)
-
-
-def _usual_workers(files: list[Path] | None) -> int:
-    """Return one worker for each core; none for a handful of files, which are graded before workers have started."""
-    is_few = bool(files) and not any(file.is_dir() for file in files or ()) and len(files or ()) < 20
-    return 1 if is_few else os.cpu_count() or 1
 
 
 def _print_graded(graded: Iterable[Graded], place: str) -> None:
