@@ -85,9 +85,7 @@ def grade(
     received: ReceivedOption = None,
     workers: Annotated[
         int,
-        typer.Option(
-            min=0, max=512, help="Processes that work at the same time; 0 is one for each core, where worthwhile."
-        ),
+        typer.Option(min=0, max=512, help="Processes; 0 is one for each core, where worthwhile."),
     ] = 0,
     cluster: Annotated[
         str, typer.Option(metavar="ADDRESS", help="A dask scheduler that does the work; local:N starts one.")
