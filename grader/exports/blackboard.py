@@ -25,8 +25,8 @@ _COLUMN = re.compile(r"\s*(?P<title>.*?)\s*\[(?P<about>[^\[\]]*)\]\s*\|\s*(?P<id
 _NUMBER = re.compile(r"\d+(?:[.,]\d+)?")
 _WITHOUT_SCORE = frozenset({"", "-", "needs grading", "needs grading()"})
 
-_LOGIN = frozenset({"username", "benutzername", "nom d'utilisateur", "nombre de usuario", "nome utente", "user name"})
-_NUMBER_OF_PERSON = frozenset({"student id", "studenten-id", "id étudiant", "id de estudiante", "id studente"})
+_LOGIN = frozenset({"username", "benutzername", "nom d'utilisateur", "nombre de usuario", "user name"})
+_NUMBER_OF_PERSON = frozenset({"student id", "studenten-id", "id étudiant", "id de estudiante"})
 
 
 @dataclass(frozen=True)
