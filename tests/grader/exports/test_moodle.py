@@ -24,7 +24,7 @@ ENGLISH = (
 )
 GERMAN = (
     '\ufeffID,"Vollständiger Name",E-Mail-Adresse,Status,Bewertung,Bestwertung,"Bewertung kann geändert werden",'
-    '"Zuletzt geändert (Abgabe)","Zuletzt geändert (Bewertung)","Feedback als Kommentar"\r\n'
+    '"Zuletzt geändert (Abgabe)","Zuletzt geändert (Bewertung)","Feedback als Kommentar"\r\n'  # codespell:ignore als
     'Teilnehmer/in48213,"Jane Doe",jane@x.edu,"Zur Bewertung abgegeben - ",,"10,00",Ja,'
     '"Montag, 3. November 2025, 22:12",-,\r\n'
     'Teilnehmer/in48214,"Jürg Müller",juerg.mueller@x.edu,"Keine Abgabe - ",-,"10,00",Nein,-,-,\r\n'
