@@ -33,3 +33,10 @@ class NothingGradedError(InputError):
 
     def __init__(self, assignment: str) -> None:
         super().__init__(assignment, "grades", "none", "Grade something first: vml grade.")
+
+
+class NothingReleasedError(InputError):
+    """Nothing was released that a platform could be told."""
+
+    def __init__(self, assignment: str) -> None:
+        super().__init__(assignment, "released grades", "none", f"Release them first: vml release {assignment}.")
