@@ -14,7 +14,7 @@ from grader._options import CourseOption, JsonOption, print_json
 from grader.grading_commands import AssignmentArgument
 
 if TYPE_CHECKING:
-    from grader.exports.job import Line
+    from grader.filling.job import Line
 
 
 class DecimalMark(StrEnum):

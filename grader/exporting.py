@@ -9,7 +9,7 @@ from assignments.course import Course
 from assignments.load import load_assignment
 from grader.errors import NothingReleasedError
 from grader.exports import export_to
-from grader.exports.job import Decimal, Job, Line, Template
+from grader.filling.job import Decimal, Job, Line, Template
 from grader.gradebook import Gradebook
 from grader.releasing import Released, released_grades
 from vml_course.errors import InputError
@@ -21,7 +21,7 @@ _LARGEST_TEMPLATE_BYTES = 50_000_000
 
 @dataclass(frozen=True)
 class Wish:
-    """How a platform's file is made; fields as in `grader.exports.job.Job`."""
+    """How a platform's file is made; fields as in `grader.filling.job.Job`."""
 
     template: Path | None = None
     out: Path | None = None

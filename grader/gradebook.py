@@ -197,7 +197,10 @@ class Gradebook:
 
     def has_key(self, assignment_id: str, pid: str) -> bool:
         """Tell whether a student's variant is kept."""
-        return self._newest_key((tables.assignment.c.slug == assignment_id) & (tables.student.c.pid == pid)) is not None
+        joined = tables.answer_key.join(tables.variant).join(tables.assignment).join(tables.student)
+        mine = (tables.assignment.c.slug == assignment_id) & (tables.student.c.pid == pid)
+        with self._reader.connect() as connection:
+            return connection.scalar(select(tables.answer_key.c.id).select_from(joined).where(mine)) is not None
 
     def _newest_key(self, condition: Any) -> AnswerKey | None:
         joined = tables.answer_key.join(tables.variant).join(tables.assignment).join(tables.student)

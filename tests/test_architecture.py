@@ -20,6 +20,7 @@ SABOTAGE = {
         "vml_course/synth/scenes/sabotage.py",
         "import vml_course.synth.scenes.soccer_kick\n",
     ),
+    "an export knows another one": ("grader/exports/sabotage.py", "import grader.exports.canvas\n"),
     "assignments know the grader": ("assignments/sabotage.py", "import grader\n"),
     "a stray file in the hall": ("vml_course/utils.py", ""),
     "the model knows scipy": ("vml_course/model/sabotage.py", "import scipy\n"),

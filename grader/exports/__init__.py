@@ -9,16 +9,14 @@ from functools import cache
 from importlib import import_module
 from pkgutil import iter_modules
 
-from grader.exports.job import Export
+from grader.filling.job import Export
 from vml_course.errors import UnknownNameError
-
-_SHARED = frozenset({"cells", "columns", "filling", "job", "moodle_worksheet", "numbers", "people"})
 
 
 @cache
 def exports() -> dict[str, Export]:
     """Return the exports by name, as it is typed: `moodle-feedback`."""
-    names = sorted(module.name for module in iter_modules(__path__) if module.name not in _SHARED)
+    names = sorted(module.name for module in iter_modules(__path__))
     return {name.replace("_", "-"): import_module(f"{__name__}.{name}").EXPORT for name in names}
 
 

@@ -11,12 +11,12 @@ import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
-from grader.exports.cells import TextTable
-from grader.exports.columns import chosen_column
-from grader.exports.filling import Column, fill
-from grader.exports.job import Export, Job, Line, template_of
-from grader.exports.numbers import number_in, uses_comma
-from grader.exports.people import Asked
+from grader.filling.cells import TextTable
+from grader.filling.columns import chosen_column
+from grader.filling.fill import Column, fill
+from grader.filling.job import Export, Job, Line, template_of
+from grader.filling.numbers import number_in, uses_comma
+from grader.filling.people import Asked
 from grader.roster import folded
 from vml_course.errors import TableError
 

@@ -6,9 +6,9 @@ import csv
 import io
 from pathlib import Path
 
-from grader.exports.filling import no_grade
-from grader.exports.job import Export, Job, Line
-from grader.exports.numbers import points_text
+from grader.filling.fill import no_grade
+from grader.filling.job import Export, Job, Line
+from grader.filling.numbers import points_text
 
 _COLUMNS = ("email", "sis_id", "login", "name", "pid", "attempt", "earned", "late_share", "points", "out_of")
 _FORMULA = ("=", "+", "-", "@", "\t", "\r")  # a spreadsheet would compute what begins like this

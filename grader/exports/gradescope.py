@@ -20,7 +20,7 @@ from grader.autograder.run import ASSIGNMENTS, TRUTH
 from grader.autograder.truth import Held, to_bytes
 from grader.autograder.wheels import download_wheels, python_version, wheels_in
 from grader.enrolment import ACTIVE, Student
-from grader.exports.job import Export, Job, Line
+from grader.filling.job import Export, Job, Line
 from grader.gradebook import Gradebook
 
 SCRIPTS = ("setup.sh", "run_autograder")

@@ -8,10 +8,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from grader.exports.filling import Column, fill
-from grader.exports.job import Export, Job, Line, template_of
-from grader.exports.moodle_worksheet import EXPECTED, Worksheet, worksheet
-from grader.exports.numbers import number_in, uses_comma
+from grader.filling.fill import Column, fill
+from grader.filling.job import Export, Job, Line, template_of
+from grader.filling.moodle_worksheet import EXPECTED, Worksheet, worksheet
+from grader.filling.numbers import number_in, uses_comma
 from grader.roster import folded
 
 _NO = frozenset({"no", "nein", "non", "nee", "não", "nej", "nei", "nie", "ei", "ne"})

@@ -11,10 +11,10 @@ from pathlib import Path
 
 from assignments.bundle import moodle_folder, zip_bytes
 from grader.enrolment import Student
-from grader.exports.filling import missing, no_grade
-from grader.exports.job import Export, Job, Line, template_of
-from grader.exports.moodle_worksheet import EXPECTED, worksheet
-from grader.exports.people import Directory
+from grader.filling.fill import missing, no_grade
+from grader.filling.job import Export, Job, Line, template_of
+from grader.filling.moodle_worksheet import EXPECTED, worksheet
+from grader.filling.people import Directory
 from grader.grading import FEEDBACK
 
 _PAGE = "feedback.html"

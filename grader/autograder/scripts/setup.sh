@@ -16,4 +16,5 @@ fi
 "$PYTHON" -m venv "$ROOT/venv"
 "$ROOT/venv/bin/python" -m pip install --quiet --no-index --no-deps --no-cache-dir \
     --disable-pip-version-check "$SOURCE"/wheels/*.whl
+"$ROOT/venv/bin/python" -m compileall -q "$SOURCE/lib"  # runs write no bytecode
 chmod 600 "$SOURCE/truth.json"

@@ -12,7 +12,7 @@ from assignments.course import Course, new_course
 from assignments.load import load_assignment
 from grader.enrolment import DROPPED, Student
 from grader.exports import export_to
-from grader.exports.job import Job, Line, Template
+from grader.filling.job import Job, Line, Template
 from grader.releasing import Released
 
 JANE = Student("jane2345", "Jane Doe", "jane@x.edu", {"canvas_id": "90210", "sis_id": "S0012345", "login": "jdoe"})

@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from grader.exports.cells import TextTable
-from grader.exports.numbers import number_in, points_text, uses_comma
+from grader.filling.cells import TextTable
+from grader.filling.numbers import number_in, points_text, uses_comma
 from vml_course.errors import TableError
 
 ODD = st.text(alphabet='ab",;\t\r\n é', min_size=1).filter(lambda text: bool(text.strip()))

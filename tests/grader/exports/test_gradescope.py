@@ -27,7 +27,7 @@ from grader.autograder.run import Pack, graded
 from grader.autograder.truth import from_bytes
 from grader.autograder.wheels import NEEDED, distributions, wheels_in
 from grader.exports.gradescope import packed_files, write
-from grader.exports.job import Job
+from grader.filling.job import Job
 from grader.gradebook import Gradebook
 from grader.roster import Enrolled
 from vml_course.errors import FileMissingError

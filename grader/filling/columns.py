@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 
-from grader.exports.cells import TextTable
-from grader.exports.job import Job
+from grader.filling.cells import TextTable
+from grader.filling.job import Job
 from grader.roster import folded
 from vml_course.errors import TableError
 

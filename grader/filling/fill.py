@@ -6,10 +6,10 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 
 from grader.enrolment import ACTIVE, Student
-from grader.exports.cells import TextTable
-from grader.exports.job import Job, Line
-from grader.exports.numbers import number_in, points_text
-from grader.exports.people import Asked, Directory
+from grader.filling.cells import TextTable
+from grader.filling.job import Job, Line
+from grader.filling.numbers import number_in, points_text
+from grader.filling.people import Asked, Directory
 
 
 @dataclass(frozen=True)

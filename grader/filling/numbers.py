@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from decimal import ROUND_HALF_UP
 from decimal import Decimal as Exact
 
-from grader.exports.job import Decimal
+from grader.filling.job import Decimal
 
 _NUMBER = re.compile(r"\s*-?\d+(?:[.,]\d+)?\s*%?\s*")
 _SHOWS_COMMA, _SHOWS_POINT = re.compile(r"\s*-?\d+,\d{1,2}\s*"), re.compile(r"\s*-?\d+\.\d{1,2}\s*")

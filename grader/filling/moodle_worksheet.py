@@ -9,9 +9,9 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-from grader.exports.cells import TextTable
-from grader.exports.numbers import number_in
-from grader.exports.people import Asked
+from grader.filling.cells import TextTable
+from grader.filling.numbers import number_in
+from grader.filling.people import Asked
 from grader.roster import folded
 from vml_course.errors import TableError
 
