@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from grader.frame import ImpactFrame
 from vml_course.chart.axes import Scale, label, nice_ticks
 from vml_course.model.arrays import FloatArray
 
@@ -130,6 +131,36 @@ def _rows(curve: Curve, both: np.ndarray, most: int = 24) -> tuple[tuple[str, ..
     return tuple(tuple(f"{column[i]:.4g}" for column in columns) for i in at)
 
 
+# ---------------------------------------------------------------- points in a picture
+
+
+@dataclass(frozen=True)
+class PlacedPoint:
+    """A tracked point in the picture's coordinates: where the student has it and where it truly is."""
+
+    name: str
+    own: tuple[float, float] | None
+    true: tuple[float, float] | None
+
+
+@dataclass(frozen=True)
+class PointsChart:
+    """A cut-out of the video with points in it; `rows` are name, own, true, distance."""
+
+    frame: ImpactFrame
+    points: tuple[PlacedPoint, ...]
+    rows: tuple[tuple[str, ...], ...]
+    description: str
+
+    @property
+    def own_rows(self) -> tuple[tuple[str, ...], ...]:
+        """The table without anything true."""
+        return tuple(row[:2] for row in self.rows)
+
+
+# ---------------------------------------------------------------- of a class
+
+
 @dataclass(frozen=True)
 class Bar:
     """One bar of a histogram, in the picture's coordinates."""
@@ -162,4 +193,43 @@ def histogram(shares: Sequence[float], bins: int = 10, width: float = 560.0, hei
             label=f"{100 * i // bins}–{100 * (i + 1) // bins} %",
         )
         for i, count in enumerate(counts)
+    )
+
+
+@dataclass(frozen=True)
+class ScatterChart:
+    """Points of a class over two axes, with the line that fits them best."""
+
+    x_label: str
+    y_label: str
+    dots: tuple[tuple[float, float], ...]
+    line: tuple[float, float, float, float] | None
+    x_ticks: tuple[Tick, ...]
+    y_ticks: tuple[Tick, ...]
+
+    width, height, left, right_edge, top, bottom = 560.0, 240.0, 52.0, 546.0, 26.0, 200.0
+
+
+def scatter_chart(x_values: Sequence[float], y_values: Sequence[float], x_label: str, y_label: str) -> ScatterChart:
+    """Lay out a score (0 to 100) over a number that is not negative.
+
+    The line is drawn where there are three points or more that differ in x.
+    """
+    x_ticks = nice_ticks(0.0, max(x_values, default=1.0), 6)
+    y_ticks = nice_ticks(0.0, 100.0, 5)
+    kind = ScatterChart
+    x = Scale(x_ticks[0], x_ticks[-1], kind.left, kind.right_edge)
+    y = Scale(y_ticks[0], y_ticks[-1], kind.bottom, kind.top)
+    line = None
+    if len(x_values) >= 3 and np.ptp(x_values) > 0:
+        slope, level = np.polyfit(x_values, y_values, 1)
+        ends = min(x_values), max(x_values)
+        line = (x(ends[0]), y(level + slope * ends[0]), x(ends[1]), y(level + slope * ends[1]))
+    return ScatterChart(
+        x_label=x_label,
+        y_label=y_label,
+        dots=tuple((x(a), y(b)) for a, b in zip(x_values, y_values, strict=True)),
+        line=line,
+        x_ticks=tuple(Tick(x(value), label(value)) for value in x_ticks),
+        y_ticks=tuple(Tick(y(value), label(value)) for value in y_ticks),
     )
