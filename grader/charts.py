@@ -220,16 +220,23 @@ def scatter_chart(x_values: Sequence[float], y_values: Sequence[float], x_label:
     kind = ScatterChart
     x = Scale(x_ticks[0], x_ticks[-1], kind.left, kind.right_edge)
     y = Scale(y_ticks[0], y_ticks[-1], kind.bottom, kind.top)
-    line = None
-    if len(x_values) >= 3 and np.ptp(x_values) > 0:
-        slope, level = np.polyfit(x_values, y_values, 1)
-        ends = min(x_values), max(x_values)
-        line = (x(ends[0]), y(level + slope * ends[0]), x(ends[1]), y(level + slope * ends[1]))
+    fitted = _fitted(np.array(x_values, dtype=float), np.array(y_values, dtype=float))
     return ScatterChart(
         x_label=x_label,
         y_label=y_label,
         dots=tuple((x(a), y(b)) for a, b in zip(x_values, y_values, strict=True)),
-        line=line,
+        line=None if fitted is None else (x(fitted[0]), y(fitted[1]), x(fitted[2]), y(fitted[3])),
         x_ticks=tuple(Tick(x(value), label(value)) for value in x_ticks),
         y_ticks=tuple(Tick(y(value), label(value)) for value in y_ticks),
     )
+
+
+def _fitted(x: FloatArray, y: FloatArray) -> tuple[float, float, float, float] | None:
+    """Return both ends of the least-squares line; None with fewer than three points, or where x hardly varies."""
+    if len(x) < 3 or np.ptp(x) <= 1e-6 * np.abs(x).max():
+        return None
+    away = x - x.mean()
+    slope = float(away @ y) / float(away @ away)
+    low, high = float(x.min()), float(x.max())
+    middle, level = float(x.mean()), float(y.mean())
+    return low, level + slope * (low - middle), high, level + slope * (high - middle)

@@ -12,6 +12,7 @@ from markupsafe import Markup
 from assignments.model import Assignment
 from assignments.names import names_in
 from grader.charts import histogram, scatter_chart
+from grader.enrolment import Student
 from grader.hints import about
 from grader.items import (
     Difficulty,
@@ -24,7 +25,7 @@ from grader.items import (
     precision_of,
     tracking_px,
 )
-from grader.ledger import Row, Student
+from grader.ledger import Row
 from grader.model import Outcome
 from grader.page import Verdict, number, points_text, symbol, template, unit_text, verdict_of
 

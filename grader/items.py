@@ -113,9 +113,13 @@ def correlation(x: np.ndarray, y: np.ndarray) -> float | None:
     """Return Pearson's correlation over what is known of both; None with too few, or where one does not vary."""
     both = np.isfinite(x) & np.isfinite(y)
     x, y = x[both], y[both]
-    if len(x) < LEAST_STUDENTS or np.ptp(x) < 1e-12 or np.ptp(y) < 1e-12:
+    if len(x) < LEAST_STUDENTS or not (_varies(x) and _varies(y)):
         return None
     return float(np.corrcoef(x, y)[0, 1])
+
+
+def _varies(values: np.ndarray) -> bool:
+    return bool(np.ptp(values) > 1e-6 * np.abs(values).max())
 
 
 # ---------------------------------------------------------------- precision
