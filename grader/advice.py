@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 
 from markupsafe import Markup
@@ -71,20 +71,34 @@ _EMPTY = Markup("Type your values and their units into the coloured cells of the
 
 def _repairs(grade: Grade, assignment: Assignment) -> Iterator[Markup]:
     lost = [_Lost(question, grade.of(question.id)) for question in assignment.questions]
+    told = {id_ for diagnosis in grade.diagnosis for id_ in diagnosis.ids or (diagnosis.subject,)}
+    if grade.diagnosis:
+        cells = _symbols(lost, lambda item: item.question.id in told) or TRACKING
+        yield Markup("Follow the hints under “Where to look”: {}.").format(cells)
+    yield from _cells(lost)
+    yield from _measure_again([item for item in lost if item.question.id not in told])
+    yield from _table(grade.of("tracking"))
+    formula = _symbols(lost, lambda item: item.has("formula") and item.question.id not in told)
+    if formula:
+        said = Markup("Work out {} again from the numbers that you wrote, with the formulas of your course.")
+        yield said.format(formula)
+
+
+def _cells(lost: list[_Lost]) -> Iterator[Markup]:
     unread = _symbols(lost, lambda item: item.is_unread)
     if unread:
         yield Markup("Type {} as plain numbers; a person looks at what you wrote.").format(unread)
     without_unit = _symbols(lost, lambda item: item.has("unit"))
     if without_unit:
         yield Markup("Choose the unit in the cell beside {}.").format(without_unit)
-    yield from _measure_again(lost)
-    if any(finding.outcome is not Outcome.RIGHT for finding in grade.of("tracking")):
-        yield Markup("Paste your measured positions into the sheet {}, in metres, y up, all frames.").format(TRACKING)
-    formula = _symbols(lost, lambda item: item.has("formula"))
-    if formula:
-        yield Markup("Work out {} again from the velocities that you wrote, with the formulas of your course.").format(
-            formula
-        )
+
+
+def _table(findings: Iterable[Finding]) -> Iterator[Markup]:
+    for finding in findings:
+        if finding.outcome is not Outcome.RIGHT and "rms_px" not in finding.numbers:
+            yield Markup("Paste your measured positions into the sheet {}, in metres, y up, all frames.").format(TRACKING)
+        elif finding.outcome in _LOST:
+            yield Markup("Repair the tracking table: what is wrong with it stands under “Your tracking table”.")
 
 
 def _measure_again(lost: list[_Lost]) -> Iterator[Markup]:

@@ -136,7 +136,7 @@ def class_of(count: int) -> str:
     rows, evidence, rng = [], {}, np.random.default_rng(7)
     for number in range(count):
         key = key_of(f"pupil{number:03}")
-        changes = {id_: key.values[id_] * (1 + rng.normal(0, 0.004)) for id_ in ("v_f1", "v_f2", "v_b2")}
+        changes = {id_: key.values[id_] * (1 + rng.normal(0, 0.004)) for id_ in SD_PARTS}
         if number % 4 == 1:
             changes["e"] = 1 / key.values["e"]
         if number % 8 == 3:
