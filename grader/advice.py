@@ -96,7 +96,9 @@ def _cells(lost: list[_Lost]) -> Iterator[Markup]:
 def _table(findings: Iterable[Finding]) -> Iterator[Markup]:
     for finding in findings:
         if finding.outcome is not Outcome.RIGHT and "rms_px" not in finding.numbers:
-            yield Markup("Paste your measured positions into the sheet {}, in metres, y up, all frames.").format(TRACKING)
+            yield Markup("Paste your measured positions into the sheet {}, in metres, y up, all frames.").format(
+                TRACKING
+            )
         elif finding.outcome in _LOST:
             yield Markup("Repair the tracking table: what is wrong with it stands under “Your tracking table”.")
 

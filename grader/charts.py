@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from grader.frame import ImpactFrame
 from vml_course.chart.axes import Scale, label, nice_ticks
 from vml_course.model.arrays import FloatArray
 
+MOST_DOTS = 300  # of a curve
 WIDTH, LEFT, RIGHT = 640.0, 58.0, 14.0
 TOP, MAIN, GAP, RESIDUAL, BOTTOM = 14.0, 190.0, 26.0, 64.0, 40.0
 
@@ -31,7 +32,8 @@ class Tick:
 class CurveChart:
     """A student's curve over the true one, and the difference beneath.
 
-    `truth` and `residual` are SVG point lists; `dots` are (x, y) of the student's numbers.
+    `truth` holds SVG point lists; `dots` and `residual` are SVG paths of strokes without length, which round ends
+    make dots: a tenth of the bytes of circles.
     """
 
     id: str
@@ -40,8 +42,8 @@ class CurveChart:
     y_label: str
     residual_label: str
     truth: tuple[str, ...]
-    dots: tuple[tuple[float, float], ...]
-    residual: tuple[tuple[float, float], ...]
+    dots: str
+    residual: str
     residual_zero: float
     x_ticks: tuple[Tick, ...]
     y_ticks: tuple[Tick, ...]
@@ -72,6 +74,7 @@ class Curve:
 
 def curve_chart(curve: Curve) -> CurveChart | None:
     """Lay a curve out; None when there is nothing to draw."""
+    curve = _thinned(curve)
     both = np.isfinite(curve.own) & np.isfinite(curve.true)
     if both.sum() < 2 or np.ptp(curve.time_ms[both]) == 0:
         return None
@@ -102,6 +105,16 @@ def curve_chart(curve: Curve) -> CurveChart | None:
     )
 
 
+def _thinned(curve: Curve) -> Curve:
+    """Return a long curve with evenly chosen frames only; more would not be told apart."""
+    count = len(curve.time_ms)
+    if count <= MOST_DOTS:
+        return curve
+    kept = np.linspace(0, count - 1, MOST_DOTS).round().astype(int)
+    arrays = {name: getattr(curve, name)[kept] for name in ("time_ms", "own", "true", "residual")}
+    return replace(curve, **arrays)
+
+
 def _description(curve: Curve, both: np.ndarray) -> str:
     rms = math.sqrt(float((curve.residual[both] ** 2).mean()))
     return (
@@ -119,8 +132,8 @@ def _runs(x: Scale, y: Scale, time_ms: FloatArray, values: FloatArray) -> tuple[
     return tuple(" ".join(f"{x(time_ms[i]):g},{y(values[i]):g}" for i in piece) for piece in kept)
 
 
-def _dots(x: Scale, y: Scale, time_ms: FloatArray, values: FloatArray) -> tuple[tuple[float, float], ...]:
-    return tuple((x(t), y(v)) for t, v in zip(time_ms, values, strict=True))
+def _dots(x: Scale, y: Scale, time_ms: FloatArray, values: FloatArray) -> str:
+    return "".join(f"M{x(t):g} {y(v):g}h0" for t, v in zip(time_ms.tolist(), values.tolist(), strict=True))
 
 
 def _rows(curve: Curve, both: np.ndarray, most: int = 24) -> tuple[tuple[str, ...], ...]:

@@ -13,7 +13,7 @@ from grader.advice import next_steps
 from grader.charts import CurveChart, PointsChart, curve_chart
 from grader.checks import explanation_of
 from grader.class_page import class_page
-from grader.counting import standing
+from grader.counting import Standing, standing
 from grader.curves import curves_of, points_chart
 from grader.frame import ImpactFrame
 from grader.ledger import Row
@@ -94,9 +94,7 @@ def feedback_page(report: Report) -> str:
     With `show_truth` off, neither true values nor the true curve nor the true points appear.
     """
     grade = report.grade
-    needs_fit = report.show_truth or report.frame is not None
-    fit = fit_trajectory(report.submission.tracking, report.key) if needs_fit else None
-    stands = standing(report.row, report.terms, report.due, is_over=report.is_over)
+    fit = _fit(report)
     points, out_of, is_provisional = _total(report)
     return template("feedback.html.j2").render(
         title=f"{report.assignment.title}: feedback",
@@ -109,10 +107,10 @@ def feedback_page(report: Report) -> str:
         needs_person=(report.row.status if report.row else grade.status) != "ok",
         empty=grade.reasons[0] if grade.status == "empty" else "",
         adjustments=report.adjustments,
-        standing=stands.sentences,
+        standing=standing_of(report).sentences,
         levels=[(level, earned_text(level.findings)) for level in levels_of(grade, report.assignment)],
-        hints=_hints(report),
-        steps=next_steps(grade, report.assignment, may_hand_in=stands.may_hand_in, show_truth=report.show_truth),
+        hints=hints_of(report),
+        steps=steps_of(report),
         groups=[_group(report, title, questions) for title, questions in report.assignment.question_groups().items()],
         show_truth=report.show_truth,
         tracking=[_finding(f) for f in grade.of("tracking")],
@@ -129,7 +127,18 @@ def _total(report: Report) -> tuple[float, float, bool]:
     return counts.points, counts.out_of, counts.is_provisional
 
 
-def _hints(report: Report) -> list[tuple[Markup, str]]:
+def standing_of(report: Report) -> Standing:
+    """Say where the student stands."""
+    return standing(report.row, report.terms, report.due, is_over=report.is_over)
+
+
+def steps_of(report: Report) -> tuple[Markup, ...]:
+    """Return what to do next."""
+    may_hand_in = standing_of(report).may_hand_in
+    return next_steps(report.grade, report.assignment, may_hand_in=may_hand_in, show_truth=report.show_truth)
+
+
+def hints_of(report: Report) -> list[tuple[Markup, str]]:
     """Return each hint once, with the cells that it is about, as symbols."""
     symbols = {question.id: symbol(question.symbol) for question in report.assignment.questions}
     hints: dict[str, dict[Markup, None]] = {}
@@ -190,6 +199,14 @@ def _finding(finding: Finding) -> tuple[Verdict, str, str]:
 
 
 # ---------------------------------------------------------------- the tracking table
+
+
+def _fit(report: Report) -> TrajectoryFit | None:
+    """Lay the table over the truth again, as late as the check found it to be; None where nothing is drawn with it."""
+    if not report.show_truth and report.frame is None:
+        return None
+    found = (finding.numbers.get("lag_frames") for finding in report.grade.findings if finding.aspect == "table")
+    return fit_trajectory(report.submission.tracking, report.key, next(found, None))
 
 
 def _charts(report: Report, fit: TrajectoryFit) -> tuple[CurveChart, ...]:

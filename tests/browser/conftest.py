@@ -193,7 +193,10 @@ class Desk:
     def opened(self, path: Path, *, scheme: str = "light", width: int = 1100, scripts: bool = True) -> Iterator:
         """Open a page; at the end, it has asked for nothing outside itself and complained of nothing."""
         context = self.browser.new_context(
-            color_scheme=scheme, viewport={"width": width, "height": 900}, java_script_enabled=scripts, bypass_csp=scripts
+            color_scheme=scheme,
+            viewport={"width": width, "height": 900},
+            java_script_enabled=scripts,
+            bypass_csp=scripts,
         )
         page, asked, told = context.new_page(), [], []
         page.on("request", lambda request: asked.append(request.url))

@@ -65,7 +65,10 @@ def test_nothing_is_cut_off_on_paper(desk, pages, name, paper):
 
 def _spellings(points: float) -> set[str]:
     """How a width can stand in a PDF."""
-    return {f"{points + off:.{digits}f}" for digits in (0, 2, 5) for off in (-0.5, 0.0, 0.5)} | {"594.95996", "595.91998"}
+    return {f"{points + off:.{digits}f}" for digits in (0, 2, 5) for off in (-0.5, 0.0, 0.5)} | {
+        "594.95996",
+        "595.91998",
+    }
 
 
 def test_the_page_is_complete_without_script(desk, pages):
