@@ -15,7 +15,7 @@ from grader.frame import ImpactFrame
 from vml_course.chart.axes import Scale, label, nice_ticks
 from vml_course.model.arrays import FloatArray
 
-MOST_DOTS = 300  # of a curve
+MOST_DOTS = 160  # of a curve; with them and the picture a page stays below 60 kB
 WIDTH, LEFT, RIGHT = 640.0, 58.0, 14.0
 TOP, MAIN, GAP, RESIDUAL, BOTTOM = 14.0, 190.0, 26.0, 64.0, 40.0
 
@@ -228,7 +228,7 @@ def scatter_chart(x_values: Sequence[float], y_values: Sequence[float], x_label:
 
     The line is drawn where there are three points or more that differ in x.
     """
-    x_ticks = nice_ticks(0.0, max(x_values, default=1.0), 6)
+    x_ticks = nice_ticks(0.0, max((*x_values, 1e-6)), 6)
     y_ticks = nice_ticks(0.0, 100.0, 5)
     kind = ScatterChart
     x = Scale(x_ticks[0], x_ticks[-1], kind.left, kind.right_edge)

@@ -78,5 +78,6 @@ def _attempts(used: int, left: int | None, terms: Terms, *, is_over: bool) -> st
 
 
 def _ignored(ignored: tuple[int, ...]) -> str:
-    numbers = ", ".join(map(str, ignored))
-    return f"{'Attempts' if len(ignored) > 1 else 'Attempt'} {numbers} came too late or were too many: not counted."
+    if len(ignored) == 1:
+        return f"Attempt {ignored[0]} came too late, or was one too many: it does not count."
+    return f"Attempts {', '.join(map(str, ignored))} came too late, or were too many: they do not count."
