@@ -7,13 +7,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from grader.frame import ImpactFrame
 from vml_course.chart.axes import Scale, label, nice_ticks
 from vml_course.model.arrays import FloatArray
 
+MOST_DOTS = 160  # of a curve; with them and the picture a page stays below 60 kB
 WIDTH, LEFT, RIGHT = 640.0, 58.0, 14.0
 TOP, MAIN, GAP, RESIDUAL, BOTTOM = 14.0, 190.0, 26.0, 64.0, 40.0
 
@@ -30,7 +32,8 @@ class Tick:
 class CurveChart:
     """A student's curve over the true one, and the difference beneath.
 
-    `truth` and `residual` are SVG point lists; `dots` are (x, y) of the student's numbers.
+    `truth` holds SVG point lists; `dots` and `residual` are SVG paths of strokes without length, which round ends
+    make dots: a tenth of the bytes of circles.
     """
 
     id: str
@@ -39,8 +42,8 @@ class CurveChart:
     y_label: str
     residual_label: str
     truth: tuple[str, ...]
-    dots: tuple[tuple[float, float], ...]
-    residual: tuple[tuple[float, float], ...]
+    dots: str
+    residual: str
     residual_zero: float
     x_ticks: tuple[Tick, ...]
     y_ticks: tuple[Tick, ...]
@@ -71,6 +74,7 @@ class Curve:
 
 def curve_chart(curve: Curve) -> CurveChart | None:
     """Lay a curve out; None when there is nothing to draw."""
+    curve = _thinned(curve)
     both = np.isfinite(curve.own) & np.isfinite(curve.true)
     if both.sum() < 2 or np.ptp(curve.time_ms[both]) == 0:
         return None
@@ -101,6 +105,16 @@ def curve_chart(curve: Curve) -> CurveChart | None:
     )
 
 
+def _thinned(curve: Curve) -> Curve:
+    """Return a long curve with evenly chosen frames only; more would not be told apart."""
+    count = len(curve.time_ms)
+    if count <= MOST_DOTS:
+        return curve
+    kept = np.linspace(0, count - 1, MOST_DOTS).round().astype(int)
+    arrays = {name: getattr(curve, name)[kept] for name in ("time_ms", "own", "true", "residual")}
+    return replace(curve, **arrays)
+
+
 def _description(curve: Curve, both: np.ndarray) -> str:
     rms = math.sqrt(float((curve.residual[both] ** 2).mean()))
     return (
@@ -118,8 +132,8 @@ def _runs(x: Scale, y: Scale, time_ms: FloatArray, values: FloatArray) -> tuple[
     return tuple(" ".join(f"{x(time_ms[i]):g},{y(values[i]):g}" for i in piece) for piece in kept)
 
 
-def _dots(x: Scale, y: Scale, time_ms: FloatArray, values: FloatArray) -> tuple[tuple[float, float], ...]:
-    return tuple((x(t), y(v)) for t, v in zip(time_ms, values, strict=True))
+def _dots(x: Scale, y: Scale, time_ms: FloatArray, values: FloatArray) -> str:
+    return "".join(f"M{x(t):g} {y(v):g}h0" for t, v in zip(time_ms.tolist(), values.tolist(), strict=True))
 
 
 def _rows(curve: Curve, both: np.ndarray, most: int = 24) -> tuple[tuple[str, ...], ...]:
@@ -128,6 +142,36 @@ def _rows(curve: Curve, both: np.ndarray, most: int = 24) -> tuple[tuple[str, ..
     at = at[np.unique(np.linspace(0, at.size - 1, min(most, at.size)).round().astype(int))]
     columns = (curve.time_ms, curve.own, curve.true, curve.residual)
     return tuple(tuple(f"{column[i]:.4g}" for column in columns) for i in at)
+
+
+# ---------------------------------------------------------------- points in a picture
+
+
+@dataclass(frozen=True)
+class PlacedPoint:
+    """A tracked point in the picture's coordinates: where the student has it and where it truly is."""
+
+    name: str
+    own: tuple[float, float] | None
+    true: tuple[float, float] | None
+
+
+@dataclass(frozen=True)
+class PointsChart:
+    """A cut-out of the video with points in it; `rows` are name, own, true, distance."""
+
+    frame: ImpactFrame
+    points: tuple[PlacedPoint, ...]
+    rows: tuple[tuple[str, ...], ...]
+    description: str
+
+    @property
+    def own_rows(self) -> tuple[tuple[str, ...], ...]:
+        """The table without anything true."""
+        return tuple(row[:2] for row in self.rows)
+
+
+# ---------------------------------------------------------------- of a class
 
 
 @dataclass(frozen=True)
@@ -163,3 +207,49 @@ def histogram(shares: Sequence[float], bins: int = 10, width: float = 560.0, hei
         )
         for i, count in enumerate(counts)
     )
+
+
+@dataclass(frozen=True)
+class ScatterChart:
+    """Points of a class over two axes, with the line that fits them best."""
+
+    x_label: str
+    y_label: str
+    dots: tuple[tuple[float, float], ...]
+    line: tuple[float, float, float, float] | None
+    x_ticks: tuple[Tick, ...]
+    y_ticks: tuple[Tick, ...]
+
+    width, height, left, right_edge, top, bottom = 560.0, 240.0, 52.0, 546.0, 26.0, 200.0
+
+
+def scatter_chart(x_values: Sequence[float], y_values: Sequence[float], x_label: str, y_label: str) -> ScatterChart:
+    """Lay out a score (0 to 100) over a number that is not negative.
+
+    The line is drawn where there are three points or more that differ in x.
+    """
+    x_ticks = nice_ticks(0.0, max((*x_values, 1e-6)), 6)
+    y_ticks = nice_ticks(0.0, 100.0, 5)
+    kind = ScatterChart
+    x = Scale(x_ticks[0], x_ticks[-1], kind.left, kind.right_edge)
+    y = Scale(y_ticks[0], y_ticks[-1], kind.bottom, kind.top)
+    fitted = _fitted(np.array(x_values, dtype=float), np.array(y_values, dtype=float))
+    return ScatterChart(
+        x_label=x_label,
+        y_label=y_label,
+        dots=tuple((x(a), y(b)) for a, b in zip(x_values, y_values, strict=True)),
+        line=None if fitted is None else (x(fitted[0]), y(fitted[1]), x(fitted[2]), y(fitted[3])),
+        x_ticks=tuple(Tick(x(value), label(value)) for value in x_ticks),
+        y_ticks=tuple(Tick(y(value), label(value)) for value in y_ticks),
+    )
+
+
+def _fitted(x: FloatArray, y: FloatArray) -> tuple[float, float, float, float] | None:
+    """Return both ends of the least-squares line; None with fewer than three points, or where x hardly varies."""
+    if len(x) < 3 or np.ptp(x) <= 1e-6 * np.abs(x).max():
+        return None
+    away = x - x.mean()
+    slope = float(away @ y) / float(away @ away)
+    low, high = float(x.min()), float(x.max())
+    middle, level = float(x.mean()), float(y.mean())
+    return low, level + slope * (low - middle), high, level + slope * (high - middle)

@@ -1,42 +1,29 @@
-"""What a student reads, and what the instructor reads of the class: one self-contained HTML page each.
-
-Every text that came from a workbook is hostile until the template has escaped it; there is no script.
-"""
+"""What a student reads: one self-contained HTML page."""
 
 from __future__ import annotations
 
-import math
-from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass
-from functools import cache
-from statistics import fmean
+from dataclasses import dataclass, field
 
-import jinja2
-from markupsafe import Markup, escape
+from markupsafe import Markup
 
 from assignments.model import AnswerKey, Assignment, Question
-from assignments.names import names_in
-from assignments.words import split_symbol
-from grader.charts import CurveChart, curve_chart, histogram
+from assignments.terms import Terms
+from grader.advice import next_steps
+from grader.charts import CurveChart, PointsChart, curve_chart
 from grader.checks import explanation_of
-from grader.curves import curves_of
-from grader.gradebook import Row, Student
-from grader.hints import about
-from grader.model import Answer, Finding, Grade, Outcome, Submission, overall
+from grader.class_page import class_page
+from grader.counting import Standing, standing
+from grader.curves import curves_of, points_chart
+from grader.frame import ImpactFrame
+from grader.ledger import Row
+from grader.levels import levels_of
+from grader.model import Answer, Finding, Grade, Submission
+from grader.page import Verdict, earned_text, number, points_text, symbol, template, unit_text, verdict
 from grader.stated import Stated, state
 from grader.trajectory import TrajectoryFit, fit_trajectory
 
-GLYPHS = {Outcome.RIGHT: "✓", Outcome.PARTIAL: "◐", Outcome.WRONG: "✗", Outcome.UNSURE: "?"}
-
-
-@dataclass(frozen=True)
-class Verdict:
-    """How a question ended, for the page: `mark` is a shape, `word` says the same."""
-
-    outcome: str
-    mark: str
-    word: str
+__all__ = ["Report", "class_page", "feedback_page", "points_text", "verdict"]
 
 
 @dataclass(frozen=True)
@@ -67,7 +54,25 @@ class Group:
 
 @dataclass(frozen=True, eq=False)
 class Report:
-    """What a student's page is made of."""
+    """What a student's page is made of.
+
+    Attributes
+    ----------
+    show_truth : bool
+        Whether true values, the true curves and the true points are shown.
+    adjustments : tuple of str
+        What a person decided, in words.
+    row : Row, optional
+        What counts of all attempts, after lateness and decisions; without it the page shows this attempt alone.
+    terms : Terms
+        With the student's extensions.
+    due : str
+        The due date in words, "" when there is none.
+    is_over : bool
+        Whether the last moment to hand in has passed.
+    frame : ImpactFrame, optional
+        The picture of the impact, from `grader.frame.impact_frame`.
+    """
 
     assignment: Assignment
     submission: Submission
@@ -76,37 +81,64 @@ class Report:
     attempt: int = 1
     show_truth: bool = True
     adjustments: tuple[str, ...] = ()
+    row: Row | None = None
+    terms: Terms = field(default_factory=Terms)
+    due: str = ""
+    is_over: bool = False
+    frame: ImpactFrame | None = None
 
 
 def feedback_page(report: Report) -> str:
     """Return one student's page.
 
-    With `show_truth` off, neither true values nor the true curve appear.
+    With `show_truth` off, neither true values nor the true curve nor the true points appear.
     """
     grade = report.grade
-    fit = fit_trajectory(report.submission.tracking, report.key) if report.show_truth else None
-    return _template("feedback.html.j2").render(
+    fit = _fit(report)
+    points, out_of, is_provisional = _total(report)
+    return template("feedback.html.j2").render(
         title=f"{report.assignment.title}: feedback",
         assignment=report.assignment,
         pid=report.key.student,
         attempt=report.attempt,
-        points=points_text(grade.points, is_provisional=grade.is_provisional),
-        out_of=points_text(grade.out_of),
-        share=grade.points / grade.out_of if grade.out_of else 0.0,
-        needs_person=grade.status != "ok",
+        points=points_text(points, is_provisional=is_provisional),
+        out_of=points_text(out_of),
+        share=points / out_of if out_of else 0.0,
+        needs_person=(report.row.status if report.row else grade.status) != "ok",
         empty=grade.reasons[0] if grade.status == "empty" else "",
         adjustments=report.adjustments,
-        hints=_hints(report),
+        standing=standing_of(report).sentences,
+        levels=[(level, earned_text(level.findings)) for level in levels_of(grade, report.assignment)],
+        hints=hints_of(report),
+        steps=steps_of(report),
         groups=[_group(report, title, questions) for title, questions in report.assignment.question_groups().items()],
         show_truth=report.show_truth,
         tracking=[_finding(f) for f in grade.of("tracking")],
-        charts=_charts(report, fit) if fit else (),
-        curve_note=_curve_note(fit) if fit else "",
+        charts=_charts(report, fit) if fit and report.show_truth else (),
+        picture=_picture(report, fit),
+        curve_note=_curve_note(fit) if fit and report.show_truth else "",
         has_table=bool(report.submission.tracking),
     )
 
 
-def _hints(report: Report) -> list[tuple[Markup, str]]:
+def _total(report: Report) -> tuple[float, float, bool]:
+    """Return points, of how many, and whether a person may still lower them."""
+    counts = report.row or report.grade
+    return counts.points, counts.out_of, counts.is_provisional
+
+
+def standing_of(report: Report) -> Standing:
+    """Say where the student stands."""
+    return standing(report.row, report.terms, report.due, is_over=report.is_over)
+
+
+def steps_of(report: Report) -> tuple[Markup, ...]:
+    """Return what to do next."""
+    may_hand_in = standing_of(report).may_hand_in
+    return next_steps(report.grade, report.assignment, may_hand_in=may_hand_in, show_truth=report.show_truth)
+
+
+def hints_of(report: Report) -> list[tuple[Markup, str]]:
     """Return each hint once, with the cells that it is about, as symbols."""
     symbols = {question.id: symbol(question.symbol) for question in report.assignment.questions}
     hints: dict[str, dict[Markup, None]] = {}
@@ -116,18 +148,21 @@ def _hints(report: Report) -> list[tuple[Markup, str]]:
     return [(Markup(", ").join(cells), hint) for hint, cells in hints.items()]
 
 
+# ---------------------------------------------------------------- question by question
+
+
 def _group(report: Report, title: str, questions: Sequence[Question]) -> Group:
-    findings = [f for q in questions for f in report.grade.of(q.id)]
     checks = dict.fromkeys(question.check for question in questions)
     return Group(
         title=title.capitalize(),
-        points=_points(findings),
-        lines=tuple(_line(report, question) for question in questions),
+        points=earned_text(f for q in questions for f in report.grade.of(q.id)),
+        lines=tuple(line_of(report, question) for question in questions),
         explanations=tuple((check.replace("_", " ").capitalize(), explanation_of(check)) for check in checks),
     )
 
 
-def _line(report: Report, question: Question) -> Line:
+def line_of(report: Report, question: Question) -> Line:
+    """Return what is said of one question; true value and band are "" where they are hidden."""
     answer = report.submission.answer(question.id)
     findings = report.grade.of(question.id)
     truth, band = _truth(report, question, findings) if report.show_truth else ("", "")
@@ -139,7 +174,7 @@ def _line(report: Report, question: Question) -> Line:
         where=answer.where.rpartition("!")[2],
         truth=truth,
         band=band,
-        points=_points(findings),
+        points=earned_text(findings),
         verdict=verdict(findings),
         findings=tuple(_finding(finding) for finding in findings),
     )
@@ -163,32 +198,26 @@ def _finding(finding: Finding) -> tuple[Verdict, str, str]:
     return verdict([finding]), finding.aspect, finding.message
 
 
-def verdict(findings: Sequence[Finding]) -> Verdict:
-    """Return how a question ended: its worst finding; an error that was carried on is shown as such."""
-    outcome = overall((f.outcome for f in findings), sum(f.points for f in findings), sum(f.out_of for f in findings))
-    if outcome is Outcome.RIGHT and any(finding.carried for finding in findings):
-        return Verdict("carried", "↪", "carried on")
-    return Verdict(outcome.value, GLYPHS[outcome], outcome.value)
+# ---------------------------------------------------------------- the tracking table
 
 
-def _points(findings: Sequence[Finding]) -> str:
-    is_provisional = any(f.outcome is Outcome.UNSURE and f.out_of > 0 for f in findings)
-    earned = points_text(sum(f.points for f in findings), is_provisional=is_provisional)
-    return f"{earned} / {points_text(sum(f.out_of for f in findings))}"
-
-
-def points_text(points: float, *, is_provisional: bool = False) -> str:
-    """Return points with two decimals at most, halves rounded up; provisional ones may become fewer.
-
-    >>> points_text(17.525), points_text(20.0), points_text(6, is_provisional=True)
-    ('17.53', '20', 'up to 6')
-    """
-    return f"{'up to ' if is_provisional else ''}{math.floor(points * 100 + 0.5 + 1e-9) / 100:g}"
+def _fit(report: Report) -> TrajectoryFit | None:
+    """Lay the table over the truth again, as late as the check found it to be; None where nothing is drawn with it."""
+    if not report.show_truth and report.frame is None:
+        return None
+    found = (finding.numbers.get("lag_frames") for finding in report.grade.findings if finding.aspect == "table")
+    return fit_trajectory(report.submission.tracking, report.key, next(found, None))
 
 
 def _charts(report: Report, fit: TrajectoryFit) -> tuple[CurveChart, ...]:
     charts = (curve_chart(curve) for curve in curves_of(fit, report.key, report.assignment))
     return tuple(chart for chart in charts if chart is not None)
+
+
+def _picture(report: Report, fit: TrajectoryFit | None) -> PointsChart | None:
+    if report.frame is None:
+        return None
+    return points_chart(report.frame, fit, report.key, show_truth=report.show_truth)
 
 
 def _curve_note(fit: TrajectoryFit) -> str:
@@ -201,105 +230,3 @@ def _curve_note(fit: TrajectoryFit) -> str:
     if abs(fit.lag_frames) > 0.3:
         done.append(f"compared {abs(fit.lag_frames):.1f} frames {'earlier' if fit.lag_frames > 0 else 'later'}")
     return f"Before drawing, your table was {', '.join(done)}."
-
-
-# ---------------------------------------------------------------- the class
-
-
-def class_page(
-    assignment: Assignment,
-    rows: Sequence[Row],
-    unreadable: Sequence[tuple[str, str]] = (),
-    students: Sequence[Student] = (),
-) -> str:
-    """Return the instructor's page; it is the only page with names.
-
-    Parameters
-    ----------
-    assignment : Assignment
-    rows : sequence of Row
-        Effective grades.
-    unreadable : sequence of (file, reason)
-    students : sequence of Student
-        The whole class: who handed in nothing is listed.
-    """
-    ids = [question.id for question in assignment.questions]
-    shares = [row.points / row.out_of for row in rows if row.out_of]
-    mistakes = Counter(code for row in rows for code in row.mistakes)
-    names = names_in(assignment.scene, assignment.questions)
-    return _template("class.html.j2").render(
-        title=f"{assignment.title}: class",
-        assignment=assignment,
-        rows=rows,
-        columns=[(q.id, symbol(q.symbol), q.label) for q in assignment.questions],
-        cells={row.student.pid: {i: _cell(row, i) for i in ids} for row in rows},
-        mean=f"{100 * fmean(shares):.0f} %" if shares else "–",
-        review=[row for row in rows if row.status != "ok"],
-        missing=_missing(rows, students),
-        several=[row for row in rows if row.attempts > 1],
-        adjusted=[row for row in rows if row.adjustments],
-        bars=histogram(shares),
-        facility=[(symbol(q.symbol), q.label, _facility(rows, q.id)) for q in assignment.questions],
-        mistakes=[(code, about(code, names), count) for code, count in mistakes.most_common()],
-        unreadable=[(file, reason.removeprefix(f"{file}: ")) for file, reason in unreadable],
-        points_text=points_text,
-    )
-
-
-def _missing(rows: Sequence[Row], students: Sequence[Student]) -> list[Student]:
-    graded = {row.student.pid for row in rows}
-    return [student for student in students if student.pid not in graded]
-
-
-def _cell(row: Row, question_id: str) -> Verdict:
-    outcome = row.outcomes.get(question_id, Outcome.UNSURE)
-    return Verdict(outcome.value, GLYPHS[outcome], outcome.value)
-
-
-def _facility(rows: Sequence[Row], question_id: str) -> str:
-    found = [row.outcomes.get(question_id) for row in rows]
-    return f"{sum(outcome is Outcome.RIGHT for outcome in found)} of {len(found)}"
-
-
-# ---------------------------------------------------------------- words
-
-
-def symbol(text: str) -> Markup:
-    """Return a symbol with its subscript.
-
-    >>> symbol("v_f1")
-    Markup('v<sub>f1</sub>')
-    """
-    letter, below = split_symbol(text)
-    return escape(letter) + (Markup("<sub>{}</sub>").format(below) if below else Markup())
-
-
-def unit_text(text: str) -> str:
-    """Return a text with raised digits in its unit.
-
-    >>> unit_text("1.88 kg m^2")
-    '1.88 kg m²'
-    """
-    return text.replace("^2", "²")
-
-
-def number(value: float) -> str:
-    """Return a number with four digits and a real minus sign.
-
-    >>> number(-0.123456), number(15.0)
-    ('−0.1235', '15')
-    """
-    text = f"{value + 0.0:.4g}"
-    return ("0" if text == "-0" else text).replace("-", "−")
-
-
-@cache
-def _template(name: str) -> jinja2.Template:
-    environment = jinja2.Environment(
-        loader=jinja2.PackageLoader("grader", "templates"),
-        autoescape=True,
-        undefined=jinja2.StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    return environment.get_template(name)

@@ -16,7 +16,8 @@ from vml_course.model.arrays import FloatArray
 
 LEAST_ROWS = 10
 LARGEST_LAG = 12.0  # frames
-_FINE = 0.05  # frames
+_Search = tuple[tuple[float, float], ...]
+_SEARCH: _Search = ((1.0, LARGEST_LAG), (0.25, 1.0), (0.05, 0.25))  # step and reach, frames
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,7 +60,9 @@ class _Trial:
     rms: float
 
 
-def fit_trajectory(tracking: Mapping[str, FloatArray], key: AnswerKey) -> TrajectoryFit | None:
+def fit_trajectory(
+    tracking: Mapping[str, FloatArray], key: AnswerKey, lag_frames: float | None = None
+) -> TrajectoryFit | None:
     """Fit a tracking table to the truth; None when the table has too little to compare.
 
     Parameters
@@ -67,6 +70,8 @@ def fit_trajectory(tracking: Mapping[str, FloatArray], key: AnswerKey) -> Trajec
     tracking : mapping of str to float array, shape (n,)
         Columns `frame` (or `t_s`) and `<point>_x_m`, `<point>_y_m`.
     key : AnswerKey
+    lag_frames : float, optional
+        How late the table is, where an earlier fit found it: searching is most of the work.
     """
     px_per_m = key.truth["px_per_m"]
     frame, points, own = _table(tracking, key)
@@ -74,7 +79,8 @@ def fit_trajectory(tracking: Mapping[str, FloatArray], key: AnswerKey) -> Trajec
     if frame is None or not points or np.isfinite(own[..., 0]).sum() < LEAST_ROWS:
         return None
     truth = true_m[:, [key.points.index(point) for point in points]]
-    best = _best(frame, own, key.frame.astype(float), truth)
+    search = _SEARCH if lag_frames is None else ((1.0, 0.0),)
+    best = _best(frame, own, key.frame.astype(float), truth, search, lag_frames or 0.0)
     if best is None:
         return None
     flip = np.array([1.0, -1.0 if best.y_down else 1.0])
@@ -107,11 +113,13 @@ def _table(tracking: Mapping[str, FloatArray], key: AnswerKey) -> tuple[FloatArr
     return frame[kept][order], points, own[kept][order]
 
 
-def _best(frame: FloatArray, own: FloatArray, true_frame: FloatArray, truth: FloatArray) -> _Trial | None:
+def _best(
+    frame: FloatArray, own: FloatArray, true_frame: FloatArray, truth: FloatArray, search: _Search, start: float
+) -> _Trial | None:
     """Search the lag coarsely, then finely, for both directions of y."""
     best: _Trial | None = None
-    for step, reach in ((1.0, LARGEST_LAG), (0.25, 1.0), (_FINE, 0.25)):
-        centre = best.lag if best else 0.0
+    for step, reach in search:
+        centre = best.lag if best else start
         for lag in np.arange(centre - reach, centre + reach + step / 2, step):
             for y_down in (False, True) if step == 1.0 else (best.y_down if best else False,):
                 trial = _trial(float(lag), y_down, own, _shifted(true_frame, truth, frame - lag))

@@ -1,0 +1,145 @@
+"""The annotated copy: plain values and what was found; nothing that was active in the student's file."""
+
+from __future__ import annotations
+
+import io
+import zipfile
+from dataclasses import replace
+
+import openpyxl
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from grader.annotated import FEEDBACK, annotated_workbook
+from grader.feedback import Report
+from grader.grade import grade
+from grader.model import Kind
+from grader.read import Book, BookCell, ReadRequest, UnreadableError, find_submission, read_workbook
+from grader.read.book import Sheet
+
+
+def opened(data: bytes) -> openpyxl.Workbook:
+    return openpyxl.load_workbook(io.BytesIO(data))
+
+
+def copy_of(desk, book: Book, **changes) -> bytes:
+    """The copy of a book; one without a variant code comes with the answers of the right workbook."""
+    whole = book if any(sheet.name == "_meta" for sheet in book.sheets) else book_of(desk)
+    submission = find_submission(whole, desk.assignment.questions)
+    report = Report(desk.assignment, submission, desk.key, grade(submission, desk.key, desk.assignment))
+    return annotated_workbook(replace(report, **changes), book)
+
+
+def book_of(desk, **changes) -> Book:
+    return read_workbook(ReadRequest("w.xlsx", desk.workbook(changes).read_bytes()))
+
+
+def sheet_of(cells, name="Answers", merges=()) -> Book:
+    return Book("w.xlsx", (Sheet(name, True, cells, merges),), {}, (), "")
+
+
+def text_of(sheet) -> str:
+    return "\n".join(str(cell) for line in sheet.iter_rows(values_only=True) for cell in line if cell is not None)
+
+
+def test_the_first_sheet_says_what_was_found(desk):
+    sheet = opened(copy_of(desk, book_of(desk, e=0.1))).worksheets[0]
+    assert sheet.title == FEEDBACK
+    text = text_of(sheet)
+    assert "A soccer kick: feedback" in text
+    assert "Processing" in text
+    assert "✗ wrong" in text
+    assert f"{desk.truth['e']:g}" in text
+
+
+def test_every_answer_is_coloured_and_has_a_note(desk):
+    made = opened(copy_of(desk, book_of(desk, e=0.1)))
+    notes = [cell.comment.text for line in made["Answers"] for cell in line if cell.comment]
+    assert len(notes) == len(desk.assignment.questions)
+    assert sum(note.startswith("✗ wrong") for note in notes) == 1
+
+
+def test_values_come_over_as_they_were(desk):
+    book = book_of(desk)
+    made = opened(copy_of(desk, book))
+    before = next(sheet for sheet in book.sheets if sheet.name == "Tracking")
+    for (row, column), cell in before.cells.items():
+        if cell.kind is Kind.NUMBER:
+            assert made["Tracking"].cell(row, column).value == pytest.approx(cell.number)
+
+
+def test_nothing_true_is_in_it_while_attempts_remain(desk):
+    data = copy_of(desk, book_of(desk, v_b2=1.0), show_truth=False)
+    everything = "\n".join(text_of(sheet) for sheet in opened(data))
+    assert f"{desk.truth['v_b2']:g}" not in everything
+    assert "True value (later)" in everything
+
+
+def test_the_copy_cannot_be_handed_in(desk):
+    """It carries no variant code: the sheet that holds it stays behind."""
+    data = copy_of(desk, book_of(desk))
+    assert "_meta" not in opened(data).sheetnames
+    with pytest.raises(UnreadableError, match="variant code"):
+        find_submission(read_workbook(ReadRequest("w.xlsx", data)), desk.assignment.questions)
+
+
+def test_formulas_macros_and_links_stay_behind(desk, tmp_path):
+    path = desk.workbook()
+    made = openpyxl.load_workbook(path)
+    made["Answers"]["I3"] = "='[Friend.xlsx]Answers'!C7"
+    made["Answers"]["I4"] = '=HYPERLINK("http://example.org","look")'
+    made["Answers"]["I5"] = "look"
+    made["Answers"]["I5"].hyperlink = "http://example.org"
+    made.save(path)
+    with zipfile.ZipFile(path, "a") as packed:
+        packed.writestr("xl/vbaProject.bin", b"macro")
+    data = copy_of(desk, read_workbook(ReadRequest("w.xlsx", path.read_bytes())))
+    members = zipfile.ZipFile(io.BytesIO(data))
+    sheets = b"".join(members.read(name) for name in members.namelist() if name.startswith("xl/worksheets/sheet"))
+    assert b"<f>" not in sheets
+    assert b"hyperlink" not in sheets
+    assert not any("vba" in name or "externalLink" in name for name in members.namelist())
+    assert b"example.org" not in sheets
+
+
+@settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(text=st.text(max_size=60), start=st.sampled_from(["", "=", "+", "-", "@", "=cmd|' /C calc'!A0"]))
+def test_any_text_stays_a_text(desk, text, start):
+    book = sheet_of({(1, 1): BookCell(Kind.TEXT, None, start + text)})
+    cell = opened(copy_of(desk, book))["Answers"].cell(1, 1)
+    assert cell.data_type in {"s", "n", "inlineStr"}
+    assert cell.value is None or isinstance(cell.value, str)
+
+
+@settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(names=st.lists(st.text(max_size=40), min_size=1, max_size=4))
+def test_any_names_of_sheets_make_a_workbook_that_opens(desk, names):
+    sheets = tuple(Sheet(name, True, {(1, 1): BookCell(Kind.NUMBER, 1.0)}) for name in names if name != "_meta")
+    made = opened(copy_of(desk, Book("w.xlsx", sheets, {}, (), "")))
+    assert len(made.sheetnames) == 1 + len(sheets)
+    assert len({name.lower() for name in made.sheetnames}) == len(made.sheetnames)
+
+
+@pytest.mark.parametrize(
+    ("cell", "shown"),
+    [
+        (BookCell(Kind.UNCACHED, is_formula=True), "(a formula that was never worked out)"),
+        (BookCell(Kind.ERROR, None, "#REF!"), "#REF!"),
+        (BookCell(Kind.NUMBER, float("inf")), "inf"),
+        (BookCell(Kind.NUMBER, 0.25, "", "0.0%"), 0.25),
+        (BookCell(Kind.NUMBER, 2.0, "", "[Red]0;[$-409]@"), 2),
+        (BookCell(Kind.DATE, 45000.0, "2023-03-15", "yyyy"), "2023-03-15"),
+    ],
+)
+def test_every_kind_of_cell_comes_over_as_a_value(desk, cell, shown):
+    assert opened(copy_of(desk, sheet_of({(2, 3): cell})))["Answers"]["C2"].value == shown
+
+
+def test_merged_cells_stay_merged_and_are_not_in_the_way(desk):
+    book = book_of(desk)
+    answers = next(sheet for sheet in book.sheets if sheet.name == "Answers")
+    merged = replace(answers, merges=((6, 2, 7, 3), (900, 1, 901, 4)))
+    others = tuple(sheet for sheet in book.sheets if sheet.name != "Answers")
+    made = opened(copy_of(desk, replace(book, sheets=(merged, *others))))
+    assert len(made["Answers"].merged_cells.ranges) == 2
