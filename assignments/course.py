@@ -40,6 +40,7 @@ _IGNORED = """\
 /inbox/
 /submissions/
 /feedback/
+/frames/
 /exports/
 /roster.csv
 """

@@ -248,8 +248,8 @@ def _fitted(x: FloatArray, y: FloatArray) -> tuple[float, float, float, float] |
     """Return both ends of the least-squares line; None with fewer than three points, or where x hardly varies."""
     if len(x) < 3 or np.ptp(x) <= 1e-6 * np.abs(x).max():
         return None
-    away = x - x.mean()
-    slope = float(away @ y) / float(away @ away)
+    away = (x - x.mean()) / np.ptp(x)  # of order one: the squares of tiny numbers are zero
+    slope = float(away @ y) / float(away @ away) / float(np.ptp(x))
     low, high = float(x.min()), float(x.max())
     middle, level = float(x.mean()), float(y.mean())
     return low, level + slope * (low - middle), high, level + slope * (high - middle)

@@ -63,20 +63,15 @@ def impact_frame(shelf: Shelf, key: AnswerKey) -> ImpactFrame | None:
     if index is None:
         return None
     try:
-        frame = _kept(shelf, name, key) or _made(shelf, key, index)
+        frame = _kept(shelf, name, key)
+        if frame is None:
+            frame = _made(shelf, key, index)
+            if frame is not None:
+                content = {"video_sha256": key.video_sha256, **asdict(frame)}
+                shelf.write(name, json.dumps(content).encode())
     except VmlError:
         return None
     return frame
-
-
-def keep_frame(shelf: Shelf, key: AnswerKey) -> bool:
-    """Cut the frame at the impact out and keep it, as when a variant is handed out; tell whether there is one."""
-    frame = impact_frame(shelf, key)
-    if frame is None:
-        return False
-    content = {"video_sha256": key.video_sha256, **asdict(frame)}
-    shelf.write(f"{KEPT}/{key.assignment_id}/{key.student}.json", json.dumps(content).encode())
-    return True
 
 
 def _kept(shelf: Shelf, name: str, key: AnswerKey) -> ImpactFrame | None:

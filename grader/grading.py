@@ -1,4 +1,4 @@
-"""Grading a batch: files that somebody names, or those that were collected and wait.
+"""Grading a batch: files that somebody names, those that were collected and wait, or all of an assignment again.
 
 Every file is kept and has its receipt before it is looked at, and run and receipt are written in one transaction:
 a run that was killed goes on with what still waits.
@@ -6,97 +6,16 @@ a run that was killed goes on with what still waits.
 
 from __future__ import annotations
 
-import datetime as dt
-import os
-from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable
 from pathlib import Path
-from typing import Any
 
 from assignments.course import Course
-from assignments.load import load_assignment
-from assignments.model import AnswerKey, Assignment
-from assignments.terms import Terms
-from grader.errors import UnknownVariantError
-from grader.feedback import Report, class_page, feedback_page
-from grader.gradebook import Gradebook, Row
-from grader.inbox import keep, kept_name, received_bytes
-from grader.marking import Marked, MarkOrder, ReadOrder, Understood, mark, understand
-from grader.model import Grade
-from grader.receipts import Arrived, Receipt, Status, handed_in_at
-from grader.signed import is_signed
-from vml_course.errors import FileMissingError, VmlError
-from vml_course.executors import Crew, each_done, open_executor
+from grader.gradebook import Gradebook
+from grader.marker import FEEDBACK, USUAL, Graded, Marker, Progress, Wanted, silent, write_class_page
+from grader.receipts import Status
+from vml_course.errors import FileMissingError
 
-FEEDBACK = "feedback"
-FILES = "files"  # the source of what no platform sent
-SMALLEST_BATCH = 16
-Progress = Callable[[int, int], None]
-
-
-@dataclass(frozen=True)
-class Graded:
-    """What became of one file.
-
-    Attributes
-    ----------
-    file : Path
-        As it was named.
-    status : str
-        `ok`, `review` (a person should look), `empty` (nothing was answered) or `unreadable` (nothing was graded).
-    message : str
-        Why, in one line, and whether other files of the student came with it; "" when there is nothing to say.
-    is_provisional : bool
-        Whether points are counted that a person has still to confirm.
-    feedback : str
-        Where the student's page lies, "" when there is none.
-    """
-
-    file: Path
-    status: str
-    message: str = ""
-    pid: str = ""
-    assignment_id: str = ""
-    attempt: int = 0
-    points: float = 0.0
-    out_of: float = 0.0
-    is_provisional: bool = False
-    feedback: str = ""
-
-    @property
-    def needs_attention(self) -> bool:
-        """Whether a person should look at it."""
-        return self.status != "ok"
-
-
-@dataclass(frozen=True)
-class Wanted:
-    """How a batch is graded.
-
-    Attributes
-    ----------
-    show_truth : bool or None
-        Whether the students' pages show true values and curves; None: when nobody can hand in any more.
-    received : datetime or None
-        When files that no platform sent were handed in; None: nobody knows, and they count as in time.
-    workers : int
-        Processes that work at the same time; 0 is one for each core where there is enough to do.
-    cluster : str
-        Address of a dask scheduler that does the work instead; `local:N` starts one.
-    """
-
-    show_truth: bool | None = None
-    received: dt.datetime | None = None
-    workers: int = 1
-    cluster: str = ""
-
-    def crew_for(self, files: int) -> Crew:
-        """Return who does the work: a process costs as much to start as thirty workbooks to grade."""
-        return open_executor(self.workers or min(os.cpu_count() or 1, 1 + files // 60), self.cluster)
-
-
-USUAL = Wanted()
+__all__ = ["FEEDBACK", "Graded", "Wanted", "grade_again", "grade_collected", "grade_files", "write_class_page"]
 
 
 def grade_files(
@@ -128,9 +47,9 @@ def grade_files(
     """
     listed = listed_files(files)
     with Gradebook.open(course) as book, wanted.crew_for(len(listed)) as crew:
-        marker = _Marker(course, book, crew, wanted)
+        marker = Marker(course, book, crew, wanted)
         in_order = sorted(listed, key=_changed)
-        graded = dict(zip(in_order, marker.mark_files(in_order, progress or _silent), strict=True))
+        graded = dict(zip(in_order, marker.mark_files(in_order, progress or silent), strict=True))
         return marker.finish([graded[file] for file in listed])
 
 
@@ -141,7 +60,7 @@ def grade_collected(
 
     As `grade_files`.
     """
-    return _grade_kept(course, "collected", assignment_id, wanted, progress or _silent)
+    return _grade_kept(course, "collected", assignment_id, wanted, progress or silent)
 
 
 def grade_again(
@@ -151,25 +70,15 @@ def grade_again(
 
     Runs are added, attempts stay; what students were told changes with the next release only, which says how.
     """
-    return _grade_kept(course, "graded", assignment_id, wanted, progress or _silent)
+    return _grade_kept(course, "graded", assignment_id, wanted, progress or silent)
 
 
 def _grade_kept(course: Course, status: Status, assignment_id: str, wanted: Wanted, progress: Progress) -> list[Graded]:
     with Gradebook.open(course) as book:
         receipts = book.receipts(status, assignment_id)
         with wanted.crew_for(len(receipts)) as crew:
-            marker = _Marker(course, book, crew, wanted)
+            marker = Marker(course, book, crew, wanted)
             return marker.finish(marker.mark_receipts(receipts, progress))
-
-
-def write_class_page(
-    course: Course, gradebook: Gradebook, assignment: Assignment, unreadable: Sequence[tuple[str, str]] = ()
-) -> str:
-    """Write the instructor's page of an assignment from the gradebook; return where it is."""
-    name = f"{FEEDBACK}/{assignment.id}/class.html"
-    rows, students = gradebook.rows(assignment.id), gradebook.students()
-    course.shelf.write(name, class_page(assignment, rows, unreadable, students).encode())
-    return course.shelf.place(name)
 
 
 def listed_files(files: Iterable[Path]) -> list[Path]:
@@ -198,162 +107,3 @@ def listed_files(files: Iterable[Path]) -> list[Path]:
 
 def _changed(file: Path) -> float:
     return file.stat().st_mtime if file.exists() else 0.0
-
-
-# ---------------------------------------------------------------- one file
-
-
-class _Marker:
-    """Takes files in batches: workers read and judge them, this process writes what they earned."""
-
-    def __init__(self, course: Course, book: Gradebook, crew: Crew, wanted: Wanted) -> None:
-        self._course, self._book, self._crew, self._wanted = course, book, crew, wanted
-        self._now = dt.datetime.now(dt.UTC)
-
-    def mark_files(self, files: Sequence[Path], progress: Progress) -> list[Graded]:
-        """Keep the files that somebody named, and grade them; return what became of each."""
-        kept = [self._keep(file) for file in files]
-        graded = self.mark_receipts([one for one in kept if isinstance(one, Receipt)], progress)
-        done = iter(graded)
-        return [
-            replace(next(done), file=file) if isinstance(one, Receipt) else one
-            for file, one in zip(files, kept, strict=True)
-        ]
-
-    def mark_receipts(self, receipts: Sequence[Receipt], progress: Progress) -> list[Graded]:
-        """Grade files that were kept; return what became of each."""
-        graded: list[Graded] = []
-        size = max(SMALLEST_BATCH, 2 * self._crew.most_under_way)
-        for start in range(0, len(receipts), size):
-            for one in self._marked(receipts[start : start + size]):
-                graded.append(one)
-                progress(len(graded), len(receipts))
-        return graded
-
-    def finish(self, graded: Sequence[Graded]) -> list[Graded]:
-        """Write the class pages; say so where several files of one student came in together."""
-        result = _with_siblings(graded)
-        unreadable = [(item.file.name, item.message) for item in result if item.status == "unreadable"]
-        for assignment_id in dict.fromkeys(item.assignment_id for item in result if item.assignment_id):
-            write_class_page(self._course, self._book, self._load(assignment_id), unreadable)
-        return result
-
-    def _keep(self, file: Path) -> Receipt | Graded:
-        try:
-            data = received_bytes(file)
-        except VmlError as error:
-            return Graded(file, "unreadable", str(error))
-        arrived = Arrived(keep(self._course.shelf, data), file.name, FILES, self._now.isoformat())
-        return Receipt(self._book.receive(arrived), arrived)
-
-    def _marked(self, receipts: Sequence[Receipt]) -> Iterator[Graded]:
-        orders = [self._order(receipt) for receipt in receipts]
-        read = [
-            self._with_key(order, result) for order, result in zip(orders, self._all(understand, orders), strict=True)
-        ]
-        marked = iter(self._all(mark, [one for one in read if isinstance(one, MarkOrder)]))
-        for receipt, one in zip(receipts, read, strict=True):
-            result = next(marked) if isinstance(one, MarkOrder) else one
-            if isinstance(one, MarkOrder) and isinstance(result, Marked):
-                yield self._record(receipt, one, result)
-            else:
-                yield self._refuse(receipt, str(result))
-
-    def _order(self, receipt: Receipt) -> ReadOrder:
-        data = self._course.shelf.read(kept_name(receipt.arrived.file_sha256))
-        return ReadOrder(receipt.arrived.name, data, self._course.assignments)
-
-    def _with_key(self, order: ReadOrder, read: object) -> MarkOrder | object:
-        """Add what is true to what was read; whoever's code it is, it must carry this course's signature."""
-        if not isinstance(read, Understood):
-            return read
-        claims = read.claims
-        try:
-            key = self._book.key_for_code(claims.code, order.name)
-            if not is_signed(self._course, key, claims):
-                raise UnknownVariantError(order.name, claims.code)
-            if read.assignment.id != key.assignment_id:  # the hidden sheet was changed: the key knows better
-                read = understand(replace(order, assignment=key.assignment_id))
-        except VmlError as error:
-            return error
-        return MarkOrder(read.submission, key, read.assignment)
-
-    def _all(self, work: Callable[[Any], Any], orders: Sequence[Any]) -> list[object]:
-        """Return what became of each order, in their order: a result, or the error that stopped it."""
-        done = {id(order): future for order, future in each_done(self._crew, work, orders)}
-        errors = ((done[id(order)], done[id(order)].exception()) for order in orders)
-        return [future.result() if error is None else _polite(error) for future, error in errors]
-
-    def _record(self, receipt: Receipt, order: MarkOrder, marked: Marked) -> Graded:
-        submission, assignment, key = marked.submission, order.assignment, order.key
-        terms = self._course.calendar.terms_of(assignment.id, key.student)
-        received = self._received(receipt, terms)
-        attempt = self._book.record_run(
-            submission, marked.grade, received_at=received, receipt=receipt.id, took_ms=marked.took_ms
-        )
-        row = self._book.row(assignment.id, key.student)
-        page = self._page(Report(assignment, submission, key, marked.grade, attempt), row, terms)
-        return _graded(receipt.arrived.name, marked.grade, key, row, attempt, page)
-
-    def _refuse(self, receipt: Receipt, reason: str) -> Graded:
-        arrived = receipt.arrived
-        self._book.note_unreadable(receipt.id, arrived.file_sha256, reason)
-        return Graded(Path(arrived.name), "unreadable", reason, arrived.pid, arrived.assignment)
-
-    def _load(self, assignment_id: str) -> Assignment:
-        return load_assignment(assignment_id, self._course.assignments)
-
-    def _received(self, receipt: Receipt, terms: Terms) -> str:
-        """Return when it counts as handed in; a platform's word was settled when it was collected."""
-        if receipt.arrived.source != FILES:
-            return receipt.arrived.received_at
-        moment = dt.datetime.fromisoformat(receipt.arrived.received_at)
-        return handed_in_at(terms, self._wanted.received, is_late=None, moment=moment).astimezone(dt.UTC).isoformat()
-
-    def _page(self, report: Report, row: Row, terms: Terms) -> str:
-        """Write the student's page; an old file that is graded again must not take the place of a newer one's."""
-        name = f"{FEEDBACK}/{report.assignment.id}/{report.key.student}.html"
-        if row.attempt == report.attempt:
-            is_over = terms.is_over(self._now) or bool(terms.attempts and row.attempts >= terms.attempts)
-            show = is_over if self._wanted.show_truth is None else self._wanted.show_truth
-            page = feedback_page(replace(report, show_truth=show, adjustments=row.adjustments))
-            self._course.shelf.write(name, page.encode())
-        return self._course.shelf.place(name)
-
-
-def _graded(name: str, result: Grade, key: AnswerKey, row: Row, attempt: int, page: str) -> Graded:
-    said = [*result.reasons]
-    if attempt in row.ignored:
-        said.append("This attempt does not count: too many, or after the last moment.")
-    return Graded(
-        file=Path(name),
-        status=result.status,
-        message=" ".join(said),
-        pid=key.student,
-        assignment_id=key.assignment_id,
-        attempt=attempt,
-        points=result.points,
-        out_of=result.out_of,
-        is_provisional=result.is_provisional,
-        feedback=page,
-    )
-
-
-def _polite(error: BaseException) -> str:
-    """Say what stopped a file; what is our fault is said to be."""
-    if isinstance(error, VmlError):
-        return str(error)
-    return (
-        f"The grader failed on this file ({type(error).__name__}: {error}); it is not your fault. A person will look."
-    )
-
-
-def _silent(_done: int, _total: int) -> None:
-    """Tell nobody."""
-
-
-def _with_siblings(graded: Sequence[Graded]) -> list[Graded]:
-    count = Counter((item.pid, item.assignment_id) for item in graded if item.pid)
-    words = {whose: f"{n} files of this student came together." for whose, n in count.items() if n > 1}
-    said = [(item, words.get((item.pid, item.assignment_id), "")) for item in graded]
-    return [replace(item, message=f"{item.message} {more}".strip()) if more else item for item, more in said]

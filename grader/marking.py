@@ -14,7 +14,7 @@ from assignments.model import AnswerKey, Assignment
 from grader.grade import grade
 from grader.model import Grade, Submission
 from grader.plausible import settle_readings
-from grader.read import ReadRequest, claims_of, find_submission, read_isolated
+from grader.read import Book, ReadRequest, claims_of, find_submission, read_isolated
 from grader.read.locate import Claims
 from grader.template import template_cells
 
@@ -41,8 +41,9 @@ class ReadOrder:
 
 @dataclass(frozen=True, eq=False)
 class Understood:
-    """What a file says: whose it claims to be, and what was answered."""
+    """What a file says: whose it claims to be, what was answered, and all of its cells."""
 
+    book: Book
     claims: Claims
     submission: Submission
     assignment: Assignment
@@ -78,7 +79,7 @@ def understand(order: ReadOrder) -> Understood:
     claims = claims_of(book)
     assignment = load_assignment(order.assignment or claims.assignment_id, order.assignments)
     cells = template_cells(assignment)
-    return Understood(claims, find_submission(book, assignment.questions, cells, assignment.points), assignment)
+    return Understood(book, claims, find_submission(book, assignment.questions, cells, assignment.points), assignment)
 
 
 def mark(order: MarkOrder) -> Marked:

@@ -9,7 +9,7 @@ import cv2
 import numpy as np
 import pytest
 
-from grader.frame import HEIGHT, MOST_BYTES, WIDTH, cut_out, impact_frame, keep_frame
+from grader.frame import HEIGHT, MOST_BYTES, WIDTH, cut_out, impact_frame
 from vml_course.io.shelf import FolderShelf
 from vml_course.io.video import picture_from_bgr, write_video
 
@@ -75,7 +75,7 @@ def test_a_picture_stays_small_or_is_left_out():
 
 def test_a_frame_that_was_kept_is_found_again_without_the_video(course):
     shelf, key = course
-    assert keep_frame(shelf, key)
+    assert impact_frame(shelf, key) is not None
     made = impact_frame(shelf, key)
     (shelf.folder / "handouts" / key.assignment_id / key.student / "video.mp4").unlink()
     assert impact_frame(shelf, key) == made
@@ -92,7 +92,7 @@ def test_a_kept_frame_that_is_damaged_is_made_again(course, spoilt):
 def test_without_a_video_there_is_no_picture(desk, tmp_path):
     key = replace(desk.key, truth={**desk.key.truth, "frame_before": 7.0})
     assert impact_frame(FolderShelf(tmp_path), key) is None
-    assert not keep_frame(FolderShelf(tmp_path), key)
+    assert impact_frame(FolderShelf(tmp_path), key) is None
 
 
 def test_a_video_that_is_none_gives_no_picture(course):

@@ -56,7 +56,7 @@ def test_a_course_in_a_store_hands_out_takes_in_and_grades(place, tmp_path, monk
     assert run(["collect", KICK, str(returned.parent), "--course", place]) == 0
     (graded,) = grade_collected(open_course(place), KICK)
     assert (graded.pid, graded.points) == (pid, graded.out_of)
-    assert course.shelf.names(f"feedback/{KICK}") == {f"{pid}.html", "class.html"}
+    assert course.shelf.names(f"feedback/{KICK}") == {f"{pid}.html", f"{pid}.xlsx", "class.html"}
     assert run(["gradebook", "verify", "--course", place]) == 0
     assert "1, 0 missing or changed" in capsys.readouterr().out
     assert course.shelf.names() == {"course.toml", "handouts", "inbox", "feedback"}  # no secret, no names, no grades

@@ -1,0 +1,287 @@
+"""Files become grades: workers read and judge them, one process writes what they earned, in their order."""
+
+from __future__ import annotations
+
+import datetime as dt
+import os
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from assignments.course import Course
+from assignments.load import load_assignment
+from assignments.model import AnswerKey, Assignment
+from assignments.terms import Terms
+from grader.annotated import annotated_workbook
+from grader.errors import UnknownVariantError
+from grader.evidence import evidence_in
+from grader.feedback import Report, class_page, feedback_page
+from grader.frame import impact_frame
+from grader.gradebook import Gradebook, Row
+from grader.inbox import keep, kept_name, received_bytes
+from grader.marking import Marked, MarkOrder, ReadOrder, Understood, mark, understand
+from grader.model import Grade
+from grader.read import Book
+from grader.receipts import Arrived, Receipt, handed_in_at
+from grader.signed import is_signed
+from vml_course.errors import VmlError
+from vml_course.executors import Crew, each_done, open_executor
+
+FEEDBACK = "feedback"
+FILES = "files"  # the source of what no platform sent
+SMALLEST_BATCH = 16
+Progress = Callable[[int, int], None]
+
+
+@dataclass(frozen=True)
+class Graded:
+    """What became of one file.
+
+    Attributes
+    ----------
+    file : Path
+        As it was named.
+    status : str
+        `ok`, `review` (a person should look), `empty` (nothing was answered) or `unreadable` (nothing was graded).
+    message : str
+        Why, in one line, and whether other files of the student came with it; "" when there is nothing to say.
+    is_provisional : bool
+        Whether points are counted that a person has still to confirm.
+    feedback : str
+        Where the student's page lies, "" when there is none.
+    """
+
+    file: Path
+    status: str
+    message: str = ""
+    pid: str = ""
+    assignment_id: str = ""
+    attempt: int = 0
+    points: float = 0.0
+    out_of: float = 0.0
+    is_provisional: bool = False
+    feedback: str = ""
+
+    @property
+    def needs_attention(self) -> bool:
+        """Whether a person should look at it."""
+        return self.status != "ok"
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """How a batch is graded.
+
+    Attributes
+    ----------
+    show_truth : bool or None
+        Whether the students' pages show true values and curves; None: when nobody can hand in any more.
+    received : datetime or None
+        When files that no platform sent were handed in; None: nobody knows, and they count as in time.
+    workers : int
+        Processes that work at the same time; 0 is one for each core where there is enough to do.
+    cluster : str
+        Address of a dask scheduler that does the work instead; `local:N` starts one.
+    """
+
+    show_truth: bool | None = None
+    received: dt.datetime | None = None
+    workers: int = 1
+    cluster: str = ""
+
+    def crew_for(self, files: int) -> Crew:
+        """Return who does the work: a process costs as much to start as thirty workbooks to grade."""
+        return open_executor(self.workers or min(os.cpu_count() or 1, 1 + files // 60), self.cluster)
+
+
+USUAL = Wanted()
+
+
+@dataclass(frozen=True, eq=False)
+class _Known:
+    """A file whose variant is known: what is to be judged, and the cells that it was found in."""
+
+    order: MarkOrder
+    book: Book
+
+
+def write_class_page(
+    course: Course, gradebook: Gradebook, assignment: Assignment, unreadable: Sequence[tuple[str, str]] = ()
+) -> str:
+    """Write the instructor's page of an assignment from the gradebook; return where it is."""
+    name = f"{FEEDBACK}/{assignment.id}/class.html"
+    rows, students = gradebook.rows(assignment.id), gradebook.students(active_only=True)
+    page = class_page(assignment, rows, unreadable, students, evidence_in(gradebook, rows))
+    course.shelf.write(name, page.encode())
+    return course.shelf.place(name)
+
+
+class Marker:
+    """Takes files in batches: workers read and judge them, this process writes what they earned."""
+
+    def __init__(self, course: Course, book: Gradebook, crew: Crew, wanted: Wanted) -> None:
+        self._course, self._book, self._crew, self._wanted = course, book, crew, wanted
+        self._now = dt.datetime.now(dt.UTC)
+
+    def mark_files(self, files: Sequence[Path], progress: Progress) -> list[Graded]:
+        """Keep the files that somebody named, and grade them; return what became of each."""
+        kept = [self._keep(file) for file in files]
+        graded = self.mark_receipts([one for one in kept if isinstance(one, Receipt)], progress)
+        done = iter(graded)
+        return [
+            replace(next(done), file=file) if isinstance(one, Receipt) else one
+            for file, one in zip(files, kept, strict=True)
+        ]
+
+    def mark_receipts(self, receipts: Sequence[Receipt], progress: Progress) -> list[Graded]:
+        """Grade files that were kept; return what became of each."""
+        graded: list[Graded] = []
+        size = max(SMALLEST_BATCH, 2 * self._crew.most_under_way)
+        for start in range(0, len(receipts), size):
+            for one in self._marked(receipts[start : start + size]):
+                graded.append(one)
+                progress(len(graded), len(receipts))
+        return graded
+
+    def finish(self, graded: Sequence[Graded]) -> list[Graded]:
+        """Write the class pages; say so where several files of one student came in together."""
+        result = _with_siblings(graded)
+        unreadable = [(item.file.name, item.message) for item in result if item.status == "unreadable"]
+        for assignment_id in dict.fromkeys(item.assignment_id for item in result if item.assignment_id):
+            write_class_page(self._course, self._book, self._load(assignment_id), unreadable)
+        return result
+
+    def _keep(self, file: Path) -> Receipt | Graded:
+        try:
+            data = received_bytes(file)
+        except VmlError as error:
+            return Graded(file, "unreadable", str(error))
+        arrived = Arrived(keep(self._course.shelf, data), file.name, FILES, self._now.isoformat())
+        return Receipt(self._book.receive(arrived), arrived)
+
+    def _marked(self, receipts: Sequence[Receipt]) -> Iterator[Graded]:
+        orders = [self._order(receipt) for receipt in receipts]
+        understood = zip(orders, self._all(understand, orders), strict=True)
+        known = [self._with_key(order, result) for order, result in understood]
+        marked = iter(self._all(mark, [one.order for one in known if isinstance(one, _Known)]))
+        for receipt, one in zip(receipts, known, strict=True):
+            result = next(marked) if isinstance(one, _Known) else one
+            if isinstance(one, _Known) and isinstance(result, Marked):
+                yield self._record(receipt, one, result)
+            else:
+                yield self._refuse(receipt, str(result))
+
+    def _order(self, receipt: Receipt) -> ReadOrder:
+        data = self._course.shelf.read(kept_name(receipt.arrived.file_sha256))
+        return ReadOrder(receipt.arrived.name, data, self._course.assignments)
+
+    def _with_key(self, order: ReadOrder, read: object) -> _Known | object:
+        """Add what is true to what was read; whoever's code it is, it must carry this course's signature."""
+        if not isinstance(read, Understood):
+            return read
+        claims = read.claims
+        try:
+            key = self._book.key_for_code(claims.code, order.name)
+            if not is_signed(self._course, key, claims):
+                raise UnknownVariantError(order.name, claims.code)
+            if read.assignment.id != key.assignment_id:  # the hidden sheet was changed: the key knows better
+                read = understand(replace(order, assignment=key.assignment_id))
+        except VmlError as error:
+            return error
+        return _Known(MarkOrder(read.submission, key, read.assignment), read.book)
+
+    def _all(self, work: Callable[[Any], Any], orders: Sequence[Any]) -> list[object]:
+        """Return what became of each order, in their order: a result, or the error that stopped it."""
+        done = {id(order): future for order, future in each_done(self._crew, work, orders)}
+        errors = ((done[id(order)], done[id(order)].exception()) for order in orders)
+        return [future.result() if error is None else _polite(error) for future, error in errors]
+
+    def _record(self, receipt: Receipt, known: _Known, marked: Marked) -> Graded:
+        submission, assignment, key = marked.submission, known.order.assignment, known.order.key
+        terms = self._course.calendar.terms_of(assignment.id, key.student)
+        received = self._received(receipt, terms)
+        attempt = self._book.record_run(
+            submission, marked.grade, received_at=received, receipt=receipt.id, took_ms=marked.took_ms
+        )
+        row = self._book.row(assignment.id, key.student)
+        report = Report(assignment, submission, key, marked.grade, attempt, row=row, terms=terms)
+        return _graded(receipt.arrived.name, marked.grade, key, row, attempt, self._pages(report, row, known.book))
+
+    def _refuse(self, receipt: Receipt, reason: str) -> Graded:
+        arrived = receipt.arrived
+        self._book.note_unreadable(receipt.id, arrived.file_sha256, reason)
+        return Graded(Path(arrived.name), "unreadable", reason, arrived.pid, arrived.assignment)
+
+    def _load(self, assignment_id: str) -> Assignment:
+        return load_assignment(assignment_id, self._course.assignments)
+
+    def _received(self, receipt: Receipt, terms: Terms) -> str:
+        """Return when it counts as handed in; a platform's word was settled when it was collected."""
+        if receipt.arrived.source != FILES:
+            return receipt.arrived.received_at
+        moment = dt.datetime.fromisoformat(receipt.arrived.received_at)
+        return handed_in_at(terms, self._wanted.received, is_late=None, moment=moment).astimezone(dt.UTC).isoformat()
+
+    def _pages(self, report: Report, row: Row, book: Book) -> str:
+        """Write the student's page and the annotated copy of the workbook; return where the page lies.
+
+        An old file that is graded again must not take the place of a newer one's.
+        """
+        name = f"{FEEDBACK}/{report.assignment.id}/{report.key.student}"
+        if row.attempt == report.attempt:
+            report = self._complete(report, row)
+            self._course.shelf.write(f"{name}.html", feedback_page(report).encode())
+            self._course.shelf.write(f"{name}.xlsx", annotated_workbook(report, book))
+        return self._course.shelf.place(f"{name}.html")
+
+    def _complete(self, report: Report, row: Row) -> Report:
+        is_over = report.terms.is_over(self._now)
+        is_done = is_over or bool(report.terms.attempts and row.attempts >= report.terms.attempts)
+        return replace(
+            report,
+            show_truth=is_done if self._wanted.show_truth is None else self._wanted.show_truth,
+            adjustments=row.adjustments,
+            due=self._course.calendar.due_text(report.assignment.id, report.key.student),
+            is_over=is_over,
+            frame=impact_frame(self._course.shelf, report.key),
+        )
+
+
+def _graded(name: str, result: Grade, key: AnswerKey, row: Row, attempt: int, page: str) -> Graded:
+    said = [*result.reasons]
+    if attempt in row.ignored:
+        said.append("This attempt does not count: too many, or after the last moment.")
+    return Graded(
+        file=Path(name),
+        status=result.status,
+        message=" ".join(said),
+        pid=key.student,
+        assignment_id=key.assignment_id,
+        attempt=attempt,
+        points=result.points,
+        out_of=result.out_of,
+        is_provisional=result.is_provisional,
+        feedback=page,
+    )
+
+
+def _polite(error: BaseException) -> str:
+    """Say what stopped a file; what is our fault is said to be."""
+    if isinstance(error, VmlError):
+        return str(error)
+    return (
+        f"The grader failed on this file ({type(error).__name__}: {error}); it is not your fault. A person will look."
+    )
+
+
+def silent(_done: int, _total: int) -> None:
+    """Tell nobody."""
+
+
+def _with_siblings(graded: Sequence[Graded]) -> list[Graded]:
+    count = Counter((item.pid, item.assignment_id) for item in graded if item.pid)
+    words = {whose: f"{n} files of this student came together." for whose, n in count.items() if n > 1}
+    said = [(item, words.get((item.pid, item.assignment_id), "")) for item in graded]
+    return [replace(item, message=f"{item.message} {more}".strip()) if more else item for item, more in said]
