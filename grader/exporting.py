@@ -10,6 +10,7 @@ from assignments.load import load_assignment
 from grader.errors import NothingReleasedError
 from grader.exports import export_to
 from grader.filling.job import Decimal, Job, Line, Template
+from grader.filling.numbers import points_text
 from grader.gradebook import Gradebook
 from grader.releasing import Released, released_grades
 from vml_course.errors import InputError
@@ -65,15 +66,20 @@ def export_grades(course: Course, assignment_id: str, to: str, wish: Wish | None
     )
     if export.from_release and not job.grades:
         raise NothingReleasedError(assignment_id)
-    if export.template and job.template is None:
-        raise InputError("--template", export.template, "none")
+    if bool(export.template) != bool(job.template):
+        raise InputError("--template", export.template or f"none for {to}", wish.template or "none")
     suffix = export.suffix or (wish.template or Path()).suffix
     file = wish.out or _place(course, f"{job.assignment.id}-{to}{suffix}")
     check_not_source(file, [wish.template] if wish.template else [])
     with replacing(file) as temporary:
         temporary.touch(mode=0o600)  # it holds names and grades
         lines = export.write(job, temporary)
-    return Exported(file, lines, export.hint, len(job.stale) if export.from_release else 0)
+    return Exported(
+        file,
+        lines,
+        export.hint.format(points=points_text(job.assignment.total_points)),
+        len(job.stale) if export.from_release else 0,
+    )
 
 
 def _job(course: Course, assignment_id: str) -> Job:

@@ -60,7 +60,7 @@ def download_wheels(folder: Path) -> None:
     ]  # fmt: skip
     done = subprocess.run(command, capture_output=True, text=True, check=False)  # noqa: S603 - pip, our own list
     if done.returncode != 0:
-        said = next((line for line in reversed(done.stderr.splitlines()) if "ERROR" in line), "nothing")
+        said = (done.stderr.strip() or "nothing said").splitlines()[-1]
         hint = "Is there a network? Or give a folder of prepared wheels: --wheels DIR."
         raise InputError("wheels", "pip to fetch them", said[:200], hint)
 

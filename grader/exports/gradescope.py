@@ -57,7 +57,8 @@ EXPORT = Export(
     from_release=False,
     hint=(
         "It holds all answers: keep it to yourself. Upload it as the autograder, on an image that has or finds Python "
-        f"{python_version()} (Ubuntu 22.04 finds 3.11, Ubuntu 24.04 has 3.12), and try it with a student's account."
+        f"{python_version()} (Ubuntu 22.04 finds 3.11, Ubuntu 24.04 has 3.12), give it {{points}} autograder points, "
+        "and try it with a student's account. Export it again when due dates or extensions change."
     ),
 )
 

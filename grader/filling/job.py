@@ -100,7 +100,7 @@ class Export:
     from_release : bool
         Whether it tells grades; only released ones may leave.
     hint : str
-        What to do with the file.
+        What to do with the file; `{points}` stands for the points of the assignment.
     """
 
     write: Write

@@ -147,6 +147,8 @@ def test_platforms_are_found_by_name(course) -> None:
     release_grades(course, "soccer-kick", who="test")
     with pytest.raises(InputError, match="--template: expected the CSV that the gradebook of Canvas exports"):
         export_grades(course, "soccer-kick", "canvas")
+    with pytest.raises(InputError, match="--template: expected none for csv"):
+        export_grades(course, "soccer-kick", "csv", Wish(course.roster))
 
 
 def test_the_autograder_needs_no_release_and_gives_nothing_away_in_the_shell(course, tmp_path, capfd) -> None:
@@ -159,5 +161,21 @@ def test_the_autograder_needs_no_release_and_gives_nothing_away_in_the_shell(cou
     assert code == 1  # Nora has no variant
     assert "has no variant" in said
     assert "CODE0" not in said
+    assert "autograder points" in said
+    assert "{points}" not in said
     assert open_course(course.folder).secret.hex() not in said
     assert stat.S_IMODE(out.stat().st_mode) & 0o077 == 0
+
+
+def test_wheels_that_cannot_be_fetched_are_one_clear_line_and_leave_nothing(
+    course, tmp_path, capfd, monkeypatch
+) -> None:
+    monkeypatch.setenv("PIP_NO_INDEX", "1")
+    out = tmp_path / "out" / "autograder.zip"
+    out.parent.mkdir()
+    code = run(["export", "soccer-kick", "--to", "gradescope", "--course", str(course.folder), "-o", str(out)])
+    said = capfd.readouterr().err
+    assert code == 2
+    assert said.count("\n") == 1
+    assert "--wheels DIR" in said
+    assert not list(out.parent.iterdir())

@@ -444,3 +444,9 @@ def test_an_assignment_of_the_course_itself_is_packed(autograder_course, tmp_pat
     names = {name for name, _ in packed_files(job_of(autograder_course))}
     assert {"assignment/soccer-kick/assignment.toml", "lib/grader/autograder/run.py", "python-version"} <= names
     assert not any("__pycache__" in name for name in names)
+
+
+def test_scripts_of_a_windows_checkout_get_unix_line_ends(autograder_course, monkeypatch) -> None:
+    monkeypatch.setattr(Path, "read_bytes", lambda path: b"#!/usr/bin/env bash\r\nexit\r\n")
+    names = dict(packed_files(job_of(autograder_course)))
+    assert names["setup.sh"] == names["run_autograder"] == b"#!/usr/bin/env bash\nexit\n"
