@@ -45,6 +45,18 @@ need_postgres() {
     fi
 }
 
+# The tests look at the pages in a real browser.
+need_chromium() {
+    if command -v chromium >/dev/null || command -v chromium-browser >/dev/null || command -v google-chrome >/dev/null; then return; fi
+    if [ "$(id -u)" = 0 ] && command -v apt-get >/dev/null; then
+        say "Installing the system package chromium ..."
+        apt-get update -qq && DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends chromium >/dev/null
+    else
+        say "Chromium: expected a browser for the tests of the pages, got none. Install it (Debian: sudo apt-get install chromium)."
+        exit 2
+    fi
+}
+
 if [ ! -x .venv/bin/python ] || ! suits .venv/bin/python; then
     python="$(find_python)"
     need_venv "$python"
@@ -55,7 +67,7 @@ fi
 
 case "$kind" in
     runtime) target="." ;;
-    dev) target=".[dev]"; need_postgres ;;
+    dev) target=".[dev]"; need_postgres; need_chromium ;;
     *) say "tools/setup.sh: expected runtime or dev, got '$kind'"; exit 2 ;;
 esac
 say "Installing vml-course ($kind); the first time takes a minute or two ..."
