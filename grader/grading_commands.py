@@ -160,4 +160,6 @@ def release(
         if change.differs:
             typer.echo(f"{change.student.pid}  {change.student.name:28}{change.before_text:>9} -> {change.after:g}")
     typer.echo(f"{len(changes)} grades, {sum(change.differs for change in changes)} of them changed.")
-    typer.echo("Nothing was released (--dry-run)." if dry_run else f"Next: vml export {assignment} --course {course}")
+    typer.echo(
+        "Nothing was released (--dry-run)." if dry_run else f"Next: vml export {assignment} --to csv --course {course}"
+    )

@@ -126,6 +126,13 @@ def test_a_failed_export_leaves_the_older_file_and_nothing_else(course, tmp_path
     assert older.read_text(encoding="utf-8") == "older"
 
 
+def test_a_template_of_many_megabytes_is_not_read(course, tmp_path) -> None:
+    with (tmp_path / "big.csv").open("wb") as file:
+        file.truncate(60_000_000)
+    with pytest.raises(InputError, match="a file of 60 MB"):
+        export_grades(course, "soccer-kick", "canvas", Wish(tmp_path / "big.csv"))
+
+
 @pytest.mark.skipif(os.name != "posix", reason="modes are POSIX's")
 def test_what_holds_names_and_grades_is_for_its_owner_alone(course) -> None:
     release_grades(course, "soccer-kick", who="test")

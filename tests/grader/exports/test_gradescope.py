@@ -340,6 +340,28 @@ def test_what_cannot_be_graded_gets_nothing_and_a_polite_text(  # noqa: PLR0917 
     assert "hand in again" in results["output"]
 
 
+def test_an_empty_workbook_is_said_to_be_empty(pack, autograder_course, kit, tmp_path) -> None:
+    nothing = dict.fromkeys(kit.true_values(kit.impact()), "")
+    data = workbook_bytes(autograder_course, kit, tmp_path, **nothing)
+    results = graded(pack, submit(tmp_path, lab=data), metadata("ana@example.org"))
+    assert results["score"] == 0
+    assert "No question is answered" in results["output"]
+
+
+def test_what_nobody_can_read_reaches_a_person_and_a_known_mistake_is_a_hint(
+    pack, autograder_course, kit, tmp_path
+) -> None:
+    unclear = workbook_bytes(autograder_course, kit, tmp_path, I="about one")
+    results = graded(pack, submit(tmp_path, lab=unclear), metadata("ana@example.org"))
+    assert "A person will look" in results["output"]
+    upside_down = workbook_bytes(autograder_course, kit, tmp_path, e=round(1 / 0.6, 4))
+    results = graded(pack, submit(tmp_path, lab=upside_down), metadata("ana@example.org"))
+    check_contract(results)
+    (hints,) = [test for test in results["tests"] if test["tags"] == ["hints"]]
+    assert hints["visibility"] == "after_due_date"
+    assert hints["output"].startswith("<ul><li>")
+
+
 def test_names_of_files_are_escaped(pack, tmp_path) -> None:
     folder = submit(tmp_path, **{"<img src=x onerror=alert(1)>": b"x"})
     assert "<img" not in graded(pack, folder, metadata("ana@example.org"))["output"]

@@ -150,6 +150,14 @@ def test_who_has_no_page_or_no_grade_gets_no_file(pages) -> None:
     assert pages.lines["Nora New"].status == "no grade"
 
 
+def test_a_participant_whom_nobody_knows_gets_no_file(pages) -> None:
+    stranger = ENGLISH.replace('"Jane Doe",jane@x.edu', '"Eve Other",eve@x.edu')
+    files = zipped(pages.run("moodle-feedback", stranger.encode()))
+    assert not any("48213" in name for name in files)
+    assert pages.lines["Eve Other"].status == "skipped"
+    assert pages.lines["Jane Doe"].status == "not in template"
+
+
 def test_the_worksheet_is_needed_because_it_has_the_numbers(pages) -> None:
     with pytest.raises(InputError, match="grading worksheet"):
         pages.run("moodle-feedback")
