@@ -30,7 +30,7 @@ def _evidence(connection: Connection, run_id: int) -> Evidence:
     return Evidence(findings, _known(key.get("values", {})), _known(key.get("expected_sd", {})))
 
 
-def _finding(score: Mapping[str, Any]) -> Finding:
+def _finding(score: Any) -> Finding:
     detail = json.loads(score["detail_json"])
     return Finding(
         question_id=score["question"],
