@@ -11,7 +11,12 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from assignments.film import foresee
+from assignments.key import answer_key
+from assignments.load import assignment_ids, load_assignment
 from assignments.terms import Late, Terms
+from assignments.variants import draw_variant
+from assignments.words import tracking_columns
 from grader.advice import next_steps
 from grader.counting import standing
 from grader.feedback import Report, feedback_page
@@ -19,7 +24,9 @@ from grader.frame import ImpactFrame
 from grader.grade import grade
 from grader.gradebook import Row, Student
 from grader.levels import levels_of
+from grader.model import Answer, Kind, Submission
 from grader.page import points_text
+from grader.trajectory import fit_trajectory
 
 FRAME = ImpactFrame(28, 300, 500, 400, 300, "data:image/jpeg;base64,AAAA")
 MOST_BYTES = 60_000
@@ -205,6 +212,13 @@ def test_attempts_are_told_in_words(desk, kit, used, terms, is_over, expected):
     assert found.may_hand_in is may
 
 
+def test_all_attempts_that_do_not_count_are_named(desk, kit):
+    found = standing(
+        row_of(report_of(desk, kit).grade, attempts=4, ignored=(3, 4)), Terms(attempts=2), "", is_over=True
+    )
+    assert "Attempts 3, 4 came too late, or were too many: they do not count." in found.sentences
+
+
 def test_what_came_after_the_last_moment_counts_nothing(desk, kit):
     row = row_of(report_of(desk, kit).grade, late_share=1.0, ignored=(1,))
     found = standing(replace(row, points=0.0), Terms(due=DUE, closes=DUE, late=Late()), "", is_over=True)
@@ -221,3 +235,54 @@ def test_no_text_of_a_workbook_becomes_markup(desk, kit, text):
     page = feedback_page(report_of(desk, kit, v_b1=hostile, e=hostile))
     assert "<img" not in page
     assert "<svg onload" not in page
+
+
+# ---------------------------------------------------------------- the tracking table
+
+
+@pytest.mark.parametrize(
+    ("table_of", "said"),
+    [
+        (lambda xy: xy * 2.0, "divided by 2, the error of its scale"),
+        (lambda xy: xy * [1, -1], "turned so that y points up"),
+        (lambda xy: np.roll(xy, 2, axis=0), "compared 2.0 frames earlier"),
+        (lambda xy: np.roll(xy, -2, axis=0), "compared 2.0 frames later"),
+    ],
+)
+def test_what_was_done_to_the_table_is_said(desk, kit, table_of, said):
+    xy_m = table_of(kit.trajectory_m(desk.numbers))[3:-3]
+    table = {name: column[3:-3] for name, column in kit.table_of(kit.trajectory_m(desk.numbers)).items()}
+    for p, point in enumerate(kit.POINTS):
+        table |= {f"{point}_x_m": xy_m[:, p, 0], f"{point}_y_m": xy_m[:, p, 1]}
+    assert said in text_of(feedback_page(report_of(desk, kit, tracking=table)))
+
+
+def test_the_known_delay_gives_the_same_curves_as_the_search(desk, kit):
+    table = kit.table_of(np.roll(kit.trajectory_m(desk.numbers), 2, axis=0))
+    searched = fit_trajectory(table, desk.key)
+    known = fit_trajectory(table, desk.key, searched.lag_frames)
+    assert known.lag_frames == searched.lag_frames
+    np.testing.assert_allclose(known.own_m, searched.own_m, atol=1e-12)
+
+
+@pytest.mark.parametrize("name", assignment_ids())
+def test_every_assignment_has_its_page(name):
+    """Also of a scene without a ball, or without a body whose angle is measured."""
+    assignment = load_assignment(name)
+    variant = draw_variant(assignment, bytes(range(32)), "pupil001")
+    key = answer_key(assignment, variant, foresee(variant), None, "0" * 64)
+    xy_m = key.xy_px * [1, -1] / key.truth["px_per_m"]
+    names = [point for point in assignment.points if point in key.points]
+    columns = [key.frame, key.time_s, *(xy_m[:, key.points.index(point), axis] for point in names for axis in (0, 1))]
+    table = dict(zip(tracking_columns(names), columns, strict=True))
+    answers = {
+        q.id: Answer(Kind.NUMBER, key.values[q.id], f"{key.values[q.id]:.6g}", q.unit, "Answers!C7", "name")
+        for q in assignment.questions
+    }
+    submission = Submission("w.xlsx", assignment.id, key.code, answers, table)
+    middle = np.nanmean(key.xy_px[int(key.truth["frame_before"])], axis=0)
+    frame = replace(FRAME, index=int(key.truth["frame_before"]), left=int(middle[0]) - 200, top=int(middle[1]) - 150)
+    page = feedback_page(Report(assignment, submission, key, grade(submission, key, assignment), frame=frame))
+    assert page.count("<svg") >= 2
+    assert 'class="mine"' in page
+    assert len(page.encode()) + 15_000 <= MOST_BYTES

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from grader.frame import HEIGHT, MOST_BYTES, WIDTH, cut_out, impact_frame
-from vml_course.io.shelf import FolderShelf
+from vml_course.io.shelf import FolderShelf, open_shelf
 from vml_course.io.video import picture_from_bgr, write_video
 
 INDEX = 7
@@ -87,6 +87,13 @@ def test_a_kept_frame_that_is_damaged_is_made_again(course, spoilt):
     shelf, key = course
     shelf.write(f"frames/{key.assignment_id}/{key.student}.json", spoilt)
     assert impact_frame(shelf, key).index == INDEX
+
+
+def test_a_course_in_an_object_store_has_its_pictures_too(course, tmp_path):
+    shelf, key = course
+    far, name = open_shelf("memory://pictures"), f"handouts/{key.assignment_id}/{key.student}/video.mp4"
+    far.write(name, shelf.read(name))
+    assert impact_frame(far, key) == impact_frame(shelf, key)
 
 
 def test_without_a_video_there_is_no_picture(desk, tmp_path):
