@@ -185,6 +185,11 @@ def add_extension(course: Course, given: Extension) -> Course:
     return replace(course, calendar=settings.calendar())
 
 
+def has_sample_roster(course: Course) -> bool:
+    """Tell whether the class list is still the sample that a new course begins with."""
+    return course.roster.is_file() and course.roster.read_text(encoding="utf-8", errors="replace") == _SAMPLE_ROSTER
+
+
 def home_of(place: str | Path) -> Path:
     """Return the folder of this machine that holds the private part of a course."""
     shelf = open_shelf(place)

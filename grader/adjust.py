@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from assignments.model import Assignment
-from grader.model import UNSURE_ABOUT, Outcome
+from grader.model import UNSURE_ABOUT, Finding, Grade, Outcome
 from vml_course.errors import InputError, UnknownNameError
 
 TOTAL = "total"
@@ -23,6 +23,10 @@ class Adjustment:
     who: str
     at: str
 
+    def told(self, symbol: str) -> str:
+        """Say it to the student: of which symbol, and why; who decided is for the instructor's eyes."""
+        return f"{symbol} set to {self.points:g} points: {self.reason}"
+
     def __str__(self) -> str:
         """Say it in one line."""
         return f"{self.question} set to {self.points:g} by {self.who} on {self.at[:10]}: {self.reason}"
@@ -36,6 +40,22 @@ class Standing:
     worth: Mapping[str, tuple[float, float]]
     outcomes: Mapping[str, Outcome]
     reasons: tuple[str, ...]
+
+
+def decided(grade: Grade, adjustments: Iterable[Adjustment]) -> Grade:
+    """Return a grade whose questions say what a person decided, in place of what was found; a pure function."""
+    newest = {item.question: item for item in adjustments if item.question != TOTAL}
+    findings: list[Finding] = []
+    for finding in grade.findings:
+        item = newest.get(finding.question_id)
+        if item is None:
+            findings.append(finding)
+        elif not any(known.question_id == finding.question_id for known in findings):
+            out_of = sum(one.out_of for one in grade.of(finding.question_id))
+            outcome, message = _outcome(item.points, out_of), f"A person decided: {item.reason}"
+            findings.append(Finding(finding.question_id, "value", outcome, item.points, out_of, message))
+    still = tuple(d for d in grade.diagnosis if not set(d.ids or (d.subject,)) <= newest.keys())
+    return replace(grade, findings=tuple(findings), diagnosis=still)
 
 
 def check_adjustment(assignment: Assignment, adjustment: Adjustment) -> None:

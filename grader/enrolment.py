@@ -47,8 +47,12 @@ class Arrival:
     status: Status
 
 
-def enrol_all(connection: Connection, people: Sequence[Enrolled], source: str = "roster") -> tuple[Arrival, ...]:
+def enrol_all(
+    connection: Connection, people: Sequence[Enrolled], source: str = "roster", *, bring_back: bool = True
+) -> tuple[Arrival, ...]:
     """Take in everybody on a class list, and tell of those who are not on it.
+
+    Who was dropped and stands on the list is active again where `bring_back` says so.
 
     Raises
     ------
@@ -65,7 +69,7 @@ def enrol_all(connection: Connection, people: Sequence[Enrolled], source: str = 
         arrivals.append((at, "new" if known is None else "linked" if by_name else "known"))
         if known is None:
             directory.add(at, person)
-    for at in {at for at, _ in arrivals} & directory.dropped:
+    for at in {at for at, _ in arrivals} & directory.dropped if bring_back else ():
         set_status(connection, directory.dropped_pid(at), ACTIVE)
     after = students_of(connection)
     listed = {at for at, _ in arrivals}

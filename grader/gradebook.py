@@ -36,7 +36,7 @@ from grader.ledger import (
     variant_of,
 )
 from grader.model import Grade, Submission
-from grader.receipts import Arrived, Receipt, Status, add_receipt, knows_file, receipts_with, settle_receipt
+from grader.receipts import Arrived, Receipt, Status, add_receipt, knows_file, receipt_of, receipts_with, settle_receipt
 from grader.roster import Enrolled, read_roster
 from vml_course.errors import InputError
 
@@ -92,9 +92,11 @@ class Gradebook:
     # ------------------------------------------------------------ students
 
     def take_in(
-        self, people: Sequence[Enrolled], source: str = "roster", *, dry_run: bool = False
+        self, people: Sequence[Enrolled], source: str = "roster", *, dry_run: bool = False, bring_back: bool = True
     ) -> tuple[Arrival, ...]:
         """Take a class list in; who is new gets a random pseudonym. With `dry_run` all is undone again.
+
+        Who was dropped and stands on the list is active again, unless `bring_back` is off.
 
         Returns
         -------
@@ -106,19 +108,19 @@ class Gradebook:
         RosterError
         """
         with self._engine.connect() as connection, connection.begin() as transaction:
-            arrivals = enrol_all(connection, people, source)
+            arrivals = enrol_all(connection, people, source, bring_back=bring_back)
             if dry_run:
                 transaction.rollback()
         return arrivals
 
     def students_from_roster(self, path: Path) -> tuple[Student, ...]:
-        """Take a class list in from its file, and return its students in order.
+        """Take the course's own class list in, and return its students in order; who was dropped stays so.
 
         Raises
         ------
         FileMissingError, RosterError
         """
-        arrivals = self.take_in(read_roster(path), path.name)
+        arrivals = self.take_in(read_roster(path), path.name, bring_back=False)
         return tuple(arrival.student for arrival in arrivals if arrival.status != "not listed")
 
     def students(self, *, active_only: bool = False) -> tuple[Student, ...]:
@@ -220,6 +222,11 @@ class Gradebook:
         """Return receipts in the order in which the files were handed in."""
         with self._reader.connect() as connection:
             return receipts_with(connection, status, assignment_id)
+
+    def receipt_of(self, assignment_id: str, pid: str, attempt: int) -> Receipt | None:
+        """Return the newest receipt of a student's attempt, None where there is none."""
+        with self._reader.connect() as connection:
+            return receipt_of(connection, assignment_id, pid, attempt)
 
     def knows_file(self, sha256: str, assignment_id: str) -> bool:
         """Tell whether these bytes came in before."""

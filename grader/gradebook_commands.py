@@ -76,7 +76,7 @@ def set_(
     typer.echo(f"{pid}: {adjustment}")
     earned = points_text(row.points, is_provisional=row.is_provisional)
     typer.echo(f"{earned} / {points_text(row.out_of)}  {row.status}  {' '.join(row.reasons)}".rstrip())
-    typer.echo("The class page is written anew; the student's page shows it when their file is graded again.")
+    typer.echo("The class page and the student's are written anew.")
 
 
 def extend(

@@ -36,8 +36,8 @@ class Row:
         Why a person should look.
     attempts : int
         How many different contents came in.
-    adjustments : tuple of str
-        What a person decided, in words.
+    decisions : tuple of Adjustment
+        What a person decided, oldest first.
     earned : float
         Points of the attempt that counts, before lateness.
     late_share : float
@@ -59,11 +59,16 @@ class Row:
     mistakes: tuple[str, ...] = ()
     reasons: tuple[str, ...] = ()
     attempts: int = 1
-    adjustments: tuple[str, ...] = ()
+    decisions: tuple[Adjustment, ...] = ()
     earned: float = 0.0
     late_share: float = 0.0
     ignored: tuple[int, ...] = ()
     run_id: int = 0
+
+    @property
+    def adjustments(self) -> tuple[str, ...]:
+        """What a person decided, in words."""
+        return tuple(map(str, self.decisions))
 
     @property
     def is_provisional(self) -> bool:
@@ -250,9 +255,13 @@ def _settled(row: Row, worth: Mapping[str, tuple[float, float]], adjustments: Se
         return row
     now_ = settle(Standing(row.points, worth, row.outcomes, row.reasons), adjustments)
     status = row.status if now_.reasons else "ok"
-    words = tuple(map(str, adjustments))
     return replace(
-        row, points=now_.points, outcomes=now_.outcomes, reasons=now_.reasons, status=status, adjustments=words
+        row,
+        points=now_.points,
+        outcomes=now_.outcomes,
+        reasons=now_.reasons,
+        status=status,
+        decisions=tuple(adjustments),
     )
 
 

@@ -14,6 +14,8 @@ from assignments.course import Course
 from assignments.load import load_assignment
 from assignments.model import AnswerKey, Assignment
 from assignments.terms import Terms
+from assignments.words import symbol_text
+from grader.adjust import decided
 from grader.annotated import annotated_workbook
 from grader.errors import UnknownVariantError
 from grader.evidence import evidence_in
@@ -110,12 +112,23 @@ class _Known:
 def write_class_page(
     course: Course, gradebook: Gradebook, assignment: Assignment, unreadable: Sequence[tuple[str, str]] = ()
 ) -> str:
-    """Write the instructor's page of an assignment from the gradebook; return where it is."""
+    """Write the instructor's page of an assignment from the gradebook; return where it is.
+
+    `unreadable` is what came in just now; what was collected earlier and could not be graded is listed, too.
+    """
+    unreadable = list(dict.fromkeys([*unreadable, *_ungraded(gradebook, assignment.id)]))
     name = f"{FEEDBACK}/{assignment.id}/class.html"
     rows, students = gradebook.rows(assignment.id), gradebook.students(active_only=True)
     page = class_page(assignment, rows, unreadable, students, evidence_in(gradebook, rows))
     course.shelf.write(name, page.encode())
     return course.shelf.place(name)
+
+
+def _ungraded(gradebook: Gradebook, assignment_id: str) -> Iterator[tuple[str, str]]:
+    for status in ("unreadable", "unmatched", "conflict", "too large"):
+        for receipt in gradebook.receipts(status, assignment_id):
+            whose = f" ({receipt.arrived.pid})" if receipt.arrived.pid else ""
+            yield f"{receipt.arrived.name}{whose}", receipt.arrived.reason
 
 
 class Marker:
@@ -152,6 +165,19 @@ class Marker:
         for assignment_id in dict.fromkeys(item.assignment_id for item in result if item.assignment_id):
             write_class_page(self._course, self._book, self._load(assignment_id), unreadable)
         return result
+
+    def rewrite_page(self, receipt: Receipt, attempt: int) -> None:
+        """Write a student's page anew, as after a person's decision; nothing is recorded."""
+        order = self._order(receipt)
+        known = self._with_key(order, *self._all(understand, [order]))
+        if isinstance(known, _Known):
+            (marked,) = self._all(mark, [known.order])
+            if isinstance(marked, Marked):
+                key, assignment = known.order.key, known.order.assignment
+                terms = self._course.calendar.terms_of(assignment.id, key.student)
+                row = self._book.row(assignment.id, key.student)
+                report = Report(assignment, marked.submission, key, marked.grade, attempt, row=row, terms=terms)
+                self._pages(report, row, known.book)
 
     def _keep(self, file: Path) -> Receipt | Graded:
         try:
@@ -239,10 +265,12 @@ class Marker:
     def _complete(self, report: Report, row: Row) -> Report:
         is_over = report.terms.is_over(self._now)
         is_done = is_over or bool(report.terms.attempts and row.attempts >= report.terms.attempts)
+        symbols = {question.id: symbol_text(question.symbol) for question in report.assignment.questions}
         return replace(
             report,
+            grade=decided(report.grade, row.decisions),
             show_truth=is_done if self._wanted.show_truth is None else self._wanted.show_truth,
-            adjustments=row.adjustments,
+            adjustments=tuple(item.told(symbols.get(item.question, "All together")) for item in row.decisions),
             due=self._course.calendar.due_text(report.assignment.id, report.key.student),
             is_over=is_over,
             frame=impact_frame(self._course.shelf, report.key),

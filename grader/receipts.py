@@ -12,7 +12,7 @@ from assignments.terms import Terms
 from grader import tables
 from grader.events import note, now
 
-Status = Literal["collected", "graded", "unreadable", "unmatched", "conflict"]
+Status = Literal["collected", "graded", "unreadable", "unmatched", "conflict", "too large"]
 
 
 @dataclass(frozen=True)
@@ -138,6 +138,23 @@ def receipts_with(connection: Connection, status: Status, assignment: str = "") 
     if assignment:
         wanted = wanted.where(table.c.assignment == assignment)
     return tuple(_receipt(row) for row in connection.execute(wanted).mappings())
+
+
+def receipt_of(connection: Connection, assignment: str, pid: str, attempt: int) -> Receipt | None:
+    """Return the newest receipt of a student's attempt, None where there is none."""
+    table = tables.receipt
+    joined = table.join(tables.submission, table.c.submission_id == tables.submission.c.id).join(
+        tables.student, table.c.student_id == tables.student.c.id
+    )
+    wanted = (
+        select(table, tables.student.c.pid)
+        .select_from(joined)
+        .where((table.c.assignment == assignment) & (tables.student.c.pid == pid))
+        .where(tables.submission.c.attempt == attempt)
+        .order_by(table.c.id.desc())
+    )
+    row = connection.execute(wanted.limit(1)).mappings().first()
+    return None if row is None else _receipt(row)
 
 
 def knows_file(connection: Connection, sha256: str, assignment: str) -> bool:

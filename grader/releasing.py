@@ -27,6 +27,7 @@ class Change:
     before: float | None
     after: float
     out_of: float
+    is_provisional: bool = False
 
     @property
     def differs(self) -> bool:
@@ -67,7 +68,9 @@ def release_grades(course: Course, assignment_id: str, *, who: str, dry_run: boo
         if not rows:
             raise NothingGradedError(assignment_id)
         before = {one.student.pid: one.points for one in released_grades(book, assignment_id)}
-        changes = tuple(Change(row.student, before.get(row.student.pid), row.points, row.out_of) for row in rows)
+        changes = tuple(
+            Change(row.student, before.get(row.student.pid), row.points, row.out_of, row.is_provisional) for row in rows
+        )
         if not dry_run:
             with book.writing() as connection:
                 _write(connection, assignment_id, rows, who)

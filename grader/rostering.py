@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from assignments.course import Course
+from assignments.course import Course, has_sample_roster
 from grader.enrolment import DROPPED, Arrival, Student
 from grader.gradebook import Gradebook
 from grader.roster import read_roster
@@ -18,6 +18,8 @@ def import_roster(course: Course, file: Path, *, dry_run: bool = False) -> tuple
     FileMissingError, RosterError
     """
     people = read_roster(file)
+    if not dry_run and has_sample_roster(course) and file.resolve() != course.roster.resolve():
+        course.roster.unlink()  # the sample's three students are nobody's
     with Gradebook.open(course) as book:
         return book.take_in(people, file.name, dry_run=dry_run)
 

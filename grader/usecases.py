@@ -3,29 +3,36 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import asdict
+from dataclasses import asdict, replace
 
 from assignments.course import Course, add_extension
 from assignments.load import load_assignment
 from assignments.terms import Extension
+from assignments.words import symbol_text
 from grader.adjust import Adjustment
 from grader.gradebook import Gradebook, Row
-from grader.grading import write_class_page
+from grader.marker import USUAL, Marker, write_class_page
 
 Progress = Callable[[int, int], None]
 
 
 def set_points(course: Course, assignment_id: str, pid: str, adjustment: Adjustment) -> Row:
-    """Record what a person decided, and write the class page anew; return the grade that follows.
+    """Record what a person decided, and write the class page and the student's anew; return the grade that follows.
 
     Raises
     ------
     InputError, UnknownNameError
     """
     assignment = load_assignment(assignment_id, course.assignments)
+    by_symbol = {symbol_text(question.symbol): question.id for question in assignment.questions}
+    adjustment = replace(adjustment, question=by_symbol.get(adjustment.question, adjustment.question))
     with Gradebook.open(course) as gradebook:
         row = gradebook.adjust(assignment, pid, adjustment)
         write_class_page(course, gradebook, assignment)
+        receipt = gradebook.receipt_of(assignment_id, pid, row.attempt)
+        if receipt is not None:
+            with USUAL.crew_for(1) as crew:
+                Marker(course, gradebook, crew, USUAL).rewrite_page(receipt, row.attempt)
     return row
 
 
