@@ -13,7 +13,9 @@ from grader.arm import CODE as ARM
 from grader.arm import with_arm
 from grader.model import Asked, Factor, Finding, Outcome
 from grader.own import OwnNumbers, own_numbers
+from grader.remarks import remarks_on_number, z_score
 from grader.stated import Stated, Unstated, state
+from grader.support import is_as_good_as_clicks, supported
 
 SDS = 3.0
 """A tolerance is never narrower than this many standard deviations of what the variant's video allows."""
@@ -97,8 +99,11 @@ def _measured_value(asked: Asked, stated: Stated, points: float) -> Finding:
     numbers = {"value": stated.value, "truth": truth, "tolerance": tolerance.half_width}
     distance = abs(stated.value - truth)
 
+    numbers |= {} if stated.uncertainty is None else {"uncertainty": stated.uncertainty, "z": z_score(stated, truth)}
+    remarks = list(remarks_on_number(stated, asked.question, asked.key, tolerance.half_width))
+
     def finding(outcome: Outcome, share: float, message: str, mistake: str = "", *, carried: bool = False) -> Finding:
-        at = asked.question.id
+        at, message = asked.question.id, " ".join([message, *remarks])
         return Finding(at, "value", outcome, share * points, points, message, numbers, mistake, carried)
 
     if distance <= tolerance.half_width and not stated.in_pixels:
@@ -111,6 +116,8 @@ def _measured_value(asked: Asked, stated: Stated, points: float) -> Finding:
         return finding(Outcome.PARTIAL, 0.5, f"Close, but not {tolerance.words}, which earns full points.")
     if abs(stated.value + truth) <= tolerance.half_width:
         return finding(Outcome.PARTIAL, 0.5, "The size is right, the sign is not. Which direction is positive?", "K6")
+    if is_as_good_as_clicks(asked, stated.value):
+        return finding(Outcome.PARTIAL, 0.5, f"As near as points clicked by hand allow, but not {tolerance.words}.")
     return finding(Outcome.WRONG, 0.0, f"Not right: full points are given {tolerance.words}.")
 
 
@@ -161,6 +168,7 @@ def judge_concluded(asked: Asked) -> tuple[Finding, ...]:
     share = 1.0 - _FORMULA_SHARE - (_UNIT_SHARE if has_unit else 0.0)
     follows = formula_finding.outcome is Outcome.RIGHT and _is_gated_in(asked, ways, concluded.formula)
     value = _concluded_value(asked, stated, question.points * share, follows=follows)
+    value = supported(asked, value, tolerance_of(asked).half_width)
     if formula_finding.outcome is Outcome.RIGHT and not follows and value.outcome is Outcome.WRONG:
         value = replace(value, message=f"{value.message} {_NOT_FOLLOWED}")
     return (*((_unit(asked, stated),) if has_unit else ()), formula_finding, value)
