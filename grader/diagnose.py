@@ -17,6 +17,7 @@ from assignments.theory import Formula, Mistake, Numbers, value_of
 from grader.arm import CODE as ARM
 from grader.arm import arm_hint
 from grader.hints import hint_for
+from grader.judging import follows_from
 from grader.model import Diagnosis, Factor, Outcome, Submission
 from grader.own import OwnNumbers, own_numbers, true_numbers
 from grader.stated import Stated, state
@@ -63,7 +64,7 @@ def diagnose_answer(
         return None
     ways, book = own_numbers(submission, key, questions), textbook_of(key.scene)
     right, mistakes = book.conclusion(quantity).formulas, book.mistakes_about(quantity, key.scene)
-    if any(_fits(stated, _candidate("", formula, way), OWN_TOLERANCE) for way in ways for formula in right):
+    if any(follows_from(stated, way, formula) for way in ways for formula in right):
         return None
     codes, basis = _from_own(stated, ways, mistakes), "own"
     if not codes:

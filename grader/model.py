@@ -9,7 +9,7 @@ from enum import StrEnum
 import numpy as np
 
 from assignments.model import AnswerKey, Question
-from grader.reference import FromTable
+from grader.tracked import FromTable
 from vml_course.model.arrays import FloatArray, set_frozen
 
 

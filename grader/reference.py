@@ -8,14 +8,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
 from assignments.model import AnswerKey, Assignment
 from assignments.textbook import textbook_of
-from assignments.theory import Textbook, value_of
+from grader.own import OwnNumbers
+from grader.tracked import FromTable
 from grader.trajectory import TrajectoryFit, fit_trajectory
 from vml_course.errors import VmlError
 from vml_course.kinetics.impact_model import ImpactOptions
@@ -27,37 +27,6 @@ from vml_course.synth.scene import Scene, scene_class
 
 SLIP = 0.02
 """From this relative error on, the scale of a table is a slip that is put right before it is solved."""
-
-FARTHEST_PX = 4.0
-"""A table that lies farther from the true path than this supports nothing."""
-
-
-@dataclass(frozen=True, eq=False)
-class FromTable:
-    """What follows from a tracking table.
-
-    Attributes
-    ----------
-    fit : TrajectoryFit or None
-        The table laid over the truth; None where there is no table.
-    values, sds : mapping of str to float
-        By question, SI units; one standard deviation where the solver knows it. Empty where it cannot be solved.
-    is_corrected : bool
-        Whether scale or axis were put right first.
-    why_not : str
-        Why there are no values.
-    """
-
-    fit: TrajectoryFit | None = None
-    values: Mapping[str, float] = field(default_factory=dict)
-    sds: Mapping[str, float] = field(default_factory=dict)
-    is_corrected: bool = False
-    why_not: str = "there is no tracking table"
-
-    @property
-    def is_near(self) -> bool:
-        """Whether the table follows the true path."""
-        return self.fit is not None and self.fit.rms_px <= FARTHEST_PX
 
 
 def from_table(tracking: Mapping[str, FloatArray], key: AnswerKey, assignment: Assignment) -> FromTable:
@@ -87,10 +56,11 @@ def _solved(fit: TrajectoryFit, key: AnswerKey, assignment: Assignment) -> FromT
     kind, model = scene_class(key.scene), impact_model(assignment.model)
     declared: dict[str, Any] = dict(kind().declared()) if issubclass(kind, Scene) else {}
     given = {symbol: key.given[symbol] for symbol in (*model.given, *model.optional) if symbol in key.given}
+    options = ImpactOptions(**{**declared, **assignment.solve})
     with np.errstate(all="ignore"):
-        found = model.solve(motion, given, ImpactOptions(**{**declared, **assignment.solve}))
+        found = model.solve(motion, given, options)
     values, sds = _by_question(found, key, assignment)
-    return FromTable(fit, values, sds, is_corrected, why_not="")
+    return FromTable(fit, values, sds, is_corrected, "", options.window_s)
 
 
 def _motion(fit: TrajectoryFit, key: AnswerKey, ratio: float) -> Motion:
@@ -109,11 +79,11 @@ def _by_question(
     signs = {item.id: item.solved for item in book.measured}
     values = {id_: signs.get(id_, 1.0) * estimate.value for id_, estimate in found.estimates.items() if id_ in asked}
     sds = {id_: found.estimates[id_].sd for id_ in values}
-    return {**_concluded(book, values, key), **values}, sds
-
-
-def _concluded(book: Textbook, values: Mapping[str, float], key: AnswerKey) -> dict[str, float]:
-    fields = {item.field: values[item.id] for item in book.measured if item.id in values}
-    numbers = book.record({**book.resting(key.values), **fields}, key.given)
-    worked = {item.id: value_of(item.formula, numbers) for item in book.concluded if item.id in key.values}
-    return {id_: value for id_, value in worked.items() if math.isfinite(value)}
+    fields = {item.field: item.id for item in book.measured if item.id in values}
+    known = {field: values[id_] for field, id_ in fields.items()}
+    way = OwnNumbers(book.record({**book.resting(key.values), **known}, key.given), {})
+    field_sds = {field: sds[id_] for field, id_ in fields.items()}
+    for item in book.concluded:
+        if item.id in asked and item.id not in values and math.isfinite(way.value(item.formula)):
+            values[item.id], sds[item.id] = way.value(item.formula), way.spread(item.formula, field_sds)
+    return values, sds

@@ -11,25 +11,8 @@ from dataclasses import replace
 from grader.model import Asked, Finding, Outcome
 
 SDS = 3.0
-OF_A_LINE = 3.0
-"""A straight line over 20 ms is at most so many times as uncertain as the reference, which fits everything at once."""
-
-HAND_PX = 1.7
-"""Root mean square distance of points that were clicked with 1 px in each coordinate, and a little more."""
-
-
-def spread_of(asked: Asked) -> float:
-    """Return what three sd of a careful student's line come to on this table; 0 where that is not known."""
-    return SDS * OF_A_LINE * asked.table.sds.get(asked.question.id, 0.0)
-
-
-def is_as_good_as_clicks(asked: Asked, value: float) -> bool:
-    """Tell whether a value is as near to the truth, and to the own table, as points clicked by hand allow."""
-    fit, found = asked.table.fit, asked.table.values.get(asked.question.id)
-    if fit is None or found is None or fit.rms_px > HAND_PX:
-        return False
-    truth, reach = asked.key.values[asked.question.id], spread_of(asked)
-    return abs(value - truth) <= reach and abs(value - found) <= reach
+METHOD = 2.0
+"""The table's own value may be off by so many times what the reference says of it: a line is no joint fit."""
 
 
 def supported(asked: Asked, finding: Finding, half_width: float) -> Finding:
@@ -72,8 +55,9 @@ def _why_unsupported(asked: Asked, value: float, half_width: float) -> str:
         return "there is no tracking table that it could come from"
     if not table.is_near:
         return "your tracking table does not follow your video"
-    if table.why_not:
-        return "no impact can be found in your tracking table"
-    if found is not None and abs(value - found) > half_width + spread_of(asked):
+    if not table.has_both_sides(asked.key.truth["t_impact_s"]):
+        return "your tracking table does not show the impact"
+    spread = METHOD * SDS * table.sds.get(asked.question.id, 0.0)
+    if found is not None and abs(value - found) > half_width + spread:
         return "your tracking table gives another one"
     return ""
