@@ -18,6 +18,7 @@ from assignments.textbook import textbook_of
 from assignments.theory import value_of
 from assignments.variants import draw_variant
 from grader.model import Answer, Kind, Submission
+from vml_course.errors import SceneRefusedError
 
 CLICK_PX = 0.5  # of each end of the scale bar
 WINDOWS_S = {
@@ -45,9 +46,15 @@ class Desk:
 
 
 def desk_of(assignment, secret, student):
-    """Draw a variant and return it with its key; the precision of the reference is not known."""
-    variant = draw_variant(assignment, secret, student)
-    truth = foresee(variant)
+    """Draw a variant that can be filmed and return it with its key; the precision of the reference is not known."""
+    first = 0
+    while True:
+        variant = draw_variant(assignment, secret, student, first=first)
+        try:
+            truth = foresee(variant)
+            break
+        except SceneRefusedError:  # drawn again, as for a handout
+            first = variant.redraws + 1
     return Desk(assignment, answer_key(assignment, variant, truth, None, "0" * 64), truth)
 
 
