@@ -29,7 +29,7 @@ SDS = 4.0
 
 
 def spread_of_measured(asked: Asked) -> float:
-    """Return how far off a number may be that was measured with a line through the own points; 0 where these are no careful clicks."""
+    """Return how far off a number may be that was measured with a line through the own points; 0 for coarse ones."""
     return SDS * _line_sd(asked, asked.question.dimension)
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from grader import gradebook_commands, grading_commands, roster_commands
+from grader import gradebook_commands, grading_commands, integrity_commands, roster_commands
 from grader._options import JsonOption, print_json
 from grader.handout_commands import handout
 from vml_course.commands._progress import stages
@@ -25,6 +25,7 @@ def register(app: typer.Typer) -> None:
     roster_commands.register(app)
     grading_commands.register(app)
     gradebook_commands.register(app)
+    integrity_commands.register(app)
 
 
 def demo(

@@ -7,14 +7,22 @@ from collections import Counter
 from dataclasses import dataclass
 
 import numpy as np
+from support.students import (
+    concluded,
+    desk_of,
+    measured,
+    numbers_of,
+    scales_of,
+    submission_of,
+    table,
+    tables_of,
+    typed,
+)  # fmt: skip
 
 from assignments.load import load_assignment
 from grader.grade import grade
 from grader.model import Outcome
 from grader.plausible import settle_readings
-from support.students import (
-    concluded, desk_of, measured, numbers_of, scales_of, submission_of, table, tables_of, typed,
-)  # fmt: skip
 
 NOISES_PX = (0.02, 1.0)
 DIGITS = (3, 4)
@@ -148,7 +156,7 @@ def _factor(code, dimension, desk):
 
 def _verdict(result, quantity, code):
     """Return whether the mistake was told alone, in a group, not at all, or another one was."""
-    told = [d for d in result.diagnosis if quantity == "velocities" or d.subject == quantity]
+    told = [d for d in result.diagnosis if quantity in {"velocities", d.subject}]
     codes = {c for d in told for c in d.codes}
     if code in codes:
         return "unique" if any(d.codes == (code,) for d in told) else "group"

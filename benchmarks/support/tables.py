@@ -50,8 +50,8 @@ def print_each(told):
 
 def print_right(told, names, kinds):
     """Print how right submissions were judged."""
-    print("\n| assignment | noise | right ones | told a mistake | formula wrong | value wrong | a measured number wrong "
-          "| to a person | mean points |")  # fmt: skip
+    said = "told a mistake | formula wrong | value wrong | a measured number wrong | to a person | mean points"
+    print(f"\n| assignment | noise | right ones | {said} |")
     print("|---|---|" + "---:|" * 7)
     noises = sorted({key[2] for key in told if key[0] == "right"})
     for name in (*names, "**all**"):
