@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from grader.model import Asked, Finding, Outcome
+from grader.tracked import LEAST_EACH_SIDE
 
 SDS = 3.0
 METHOD = 2.0
@@ -55,7 +56,7 @@ def _why_unsupported(asked: Asked, value: float, half_width: float) -> str:
         return "there is no tracking table that it could come from"
     if not table.is_near:
         return "your tracking table does not follow your video"
-    if not table.has_both_sides(asked.key.truth["t_impact_s"]):
+    if min(table.rows(asked.key.truth["t_impact_s"])) < LEAST_EACH_SIDE:
         return "your tracking table does not show the impact"
     spread = METHOD * SDS * table.sds.get(asked.question.id, 0.0)
     if found is not None and abs(value - found) > half_width + spread:

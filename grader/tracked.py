@@ -45,12 +45,10 @@ class FromTable:
         """Whether the table follows the true path."""
         return self.fit is not None and self.fit.rms_px <= FARTHEST_PX
 
-    def has_both_sides(self, impact_s: float) -> bool:
-        """Tell whether there are enough rows before and after the impact."""
-        return self.fit is not None and min(_rows(self.fit, impact_s)) >= LEAST_EACH_SIDE
-
-
-def _rows(fit: TrajectoryFit, impact_s: float) -> tuple[int, int]:
-    seen = np.isfinite(fit.own_m).all(axis=(1, 2))
-    before = fit.time_s < impact_s
-    return int((seen & before).sum()), int((seen & ~before).sum())
+    def rows(self, impact_s: float) -> tuple[int, int]:
+        """Return how many rows are complete before and after the impact."""
+        if self.fit is None:
+            return 0, 0
+        seen = np.isfinite(self.fit.own_m).all(axis=(1, 2))
+        before = self.fit.time_s < impact_s
+        return int((seen & before).sum()), int((seen & ~before).sum())

@@ -7,7 +7,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from sqlalchemy import create_engine, insert
-from typer.testing import CliRunner
 
 from grader import tables
 from grader.findings import add_findings, brought_by_another, findings_of, keys_of_class, newest_files
