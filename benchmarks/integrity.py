@@ -1,6 +1,6 @@
 """How often honest students come under suspicion, and how many copies are found: whole classes, simulated.
 
-    python benchmarks/integrity.py [--classes 100] [--students 300] [--assignment swinging-door] [--workers 2]
+    python benchmarks/integrity.py [--classes 12] [--students 300] [--assignment swinging-door] [--workers 2]
 
 Each class has its students' own variants; half of the tables are tracked (noise of 0.02 px in each coordinate), half
 clicked by hand (1 px). An honest class holds no copy. A copied class holds for each kind of copy some students who
@@ -101,7 +101,7 @@ def run(order):
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--classes", type=int, default=100)
+    parser.add_argument("--classes", type=int, default=12)
     parser.add_argument("--students", type=int, default=300)
     parser.add_argument("--assignment", default="swinging-door")
     parser.add_argument("--workers", type=int, default=2)
