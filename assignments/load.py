@@ -105,7 +105,7 @@ def _mistake(kind: str, place: tuple[int | str, ...], message: str, got: Any, co
     if kind == "missing":
         return InputError(key, "a value", "none")
     if kind == "value_error":  # of a validator of ours: what was expected, in words
-        return InputError(key or "file", message.removeprefix("Value error, "), "what is there")
+        return InputError(key or "file", message.removeprefix("Value error, "), repr(got)[:60])
     return InputError(key, _expectation(message), repr(got)[:60])
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from grader import export_commands, gradebook_commands, grading_commands, roster_commands
+from grader import export_commands, gradebook_commands, grading_commands, integrity_commands, roster_commands
 from grader._options import JsonOption, print_json
 from grader.handout_commands import handout
 from vml_course.commands._progress import stages
@@ -26,6 +26,7 @@ def register(app: typer.Typer) -> None:
     grading_commands.register(app)
     gradebook_commands.register(app)
     export_commands.register(app)
+    integrity_commands.register(app)
 
 
 def demo(

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from statistics import median
 
 from assignments.model import AnswerKey, Question
 from assignments.names import names_in
@@ -17,6 +18,7 @@ from assignments.theory import Formula, Mistake, Numbers, value_of
 from grader.arm import CODE as ARM
 from grader.arm import arm_hint
 from grader.hints import hint_for
+from grader.judging import follows_from
 from grader.model import Diagnosis, Factor, Outcome, Submission
 from grader.own import OwnNumbers, own_numbers, true_numbers
 from grader.stated import Stated, state
@@ -24,6 +26,7 @@ from grader.stated import Stated, state
 OWN_TOLERANCE = 0.005
 FINE_TOLERANCE = 0.0005  # beyond the printed digits
 LARGEST_GROUP = 3
+_LEAST_CELLS = 3  # that tell how many digits a student writes
 TRUTH_TOLERANCE: Mapping[str, float] = {"e": 0.03, "I": 0.08}
 _USUAL_TRUTH_TOLERANCE = 0.05
 _CLEAR = 3.0  # a best fit on the truth must be this much closer than the next
@@ -63,9 +66,11 @@ def diagnose_answer(
         return None
     ways, book = own_numbers(submission, key, questions), textbook_of(key.scene)
     right, mistakes = book.conclusion(quantity).formulas, book.mistakes_about(quantity, key.scene)
-    if any(_fits(stated, _candidate("", formula, way), OWN_TOLERANCE) for way in ways for formula in right):
+    if any(follows_from(stated, way, formula) for way in ways for formula in right):
         return None
-    codes, basis = _from_own(stated, ways, mistakes), "own"
+    digits = usual_digits(submission, questions)
+    codes, basis = _from_own(_sharp(stated, digits), [_sharp_way(way, digits) for way in ways], mistakes), "own"
+    codes = codes or _from_own(stated, ways, mistakes)
     if not codes:
         codes, basis = _from_truth(stated.value, key, questions[quantity], mistakes), "truth"
     if not 1 <= len(codes) <= LARGEST_GROUP:
@@ -96,6 +101,41 @@ def _from_own(stated: Stated, ways: Sequence[OwnNumbers], mistakes: Sequence[Mis
         if codes:
             return codes
     return ()
+
+
+def usual_digits(submission: Submission, questions: Mapping[str, Question]) -> int:
+    """Return how many digits this student writes: a cell that holds 0.7 may have been typed as 0.700.
+
+    >>> from grader.model import Answer, Kind, Submission
+    >>> cells = {name: Answer(Kind.NUMBER, float(text), text) for name, text in zip("abc", ("12.4", "0.7", "3.05"))}
+    >>> asked = {name: Question(name, name, name, "number", "", 1.0, "", 0.0, "") for name in cells}
+    >>> usual_digits(Submission("w.xlsx", "a", "", cells, {}), asked)
+    3
+    """
+    stated = (state(submission.answer(id_), question) for id_, question in questions.items())
+    rounded = [one for one in stated if isinstance(one, Stated) and one.half_unit > 0]
+    if len(rounded) < _LEAST_CELLS:
+        return 0
+    return round(median(_digits(one.value, one.half_unit) for one in rounded))
+
+
+def _digits(value: float, half_unit: float) -> float:
+    return math.floor(math.log10(abs(value))) - math.log10(2 * half_unit) + 1
+
+
+def _sharper(value: float, half_unit: float, digits: int) -> float:
+    if half_unit == 0 or value == 0 or digits == 0:
+        return half_unit
+    return min(half_unit, 0.5 * 10.0 ** (math.floor(math.log10(abs(value))) - digits + 1))
+
+
+def _sharp(stated: Stated, digits: int) -> Stated:
+    return replace(stated, half_unit=_sharper(stated.value, stated.half_unit, digits))
+
+
+def _sharp_way(way: OwnNumbers, digits: int) -> OwnNumbers:
+    halves = {name: _sharper(getattr(way.numbers, name), half, digits) for name, half in way.half_units.items()}
+    return replace(way, half_units=halves)
 
 
 def matching(stated: Stated, candidates: Iterable[Candidate]) -> tuple[str, ...]:

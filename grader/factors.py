@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 import statistics
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 
 from assignments.model import AnswerKey, Question
 from grader.arm import find_arm
@@ -31,21 +31,31 @@ def find_factors(submission: Submission, key: AnswerKey, questions: Mapping[str,
 
     A common factor of the foot's speeds that I shares is another arm than L: it comes first.
     """
-    found = []
-    for dimension, names in (("velocity", _velocity_names), ("angular_velocity", _omega_names)):
-        asked = [q for q in questions.values() if q.dimension == dimension and q.group != "conclusion"]
-        ratios = _ratios(submission, key, asked)
-        shared = _shared(ratios)
-        if shared is None:
-            continue
-        tolerance = max(question.tolerance for question in asked)
-        codes = _codes(shared[0], names(submission, key, questions), tolerance)
-        if codes:
-            found.append(Factor(codes, *shared))
+    speeds, rates = (_asked(questions, dimension) for dimension in ("velocity", "angular_velocity"))
+    kinds = [(speeds, _velocity_names), (rates, _omega_names)]
+    if len(speeds) < 2 and len(rates) < 2:  # time alone is in both
+        kinds = [([*speeds, *rates], _rate_names)]
+    factors = (_factor(asked, submission, key, names(submission, key, questions)) for asked, names in kinds)
+    found = [factor for factor in factors if factor is not None]
     arm = find_arm(submission, key, questions)
     if arm is not None:  # explains more than any factor of the foot's speeds alone
         return (arm, *(factor for factor in found if not set(factor.ids) <= set(arm.ids)))
     return tuple(found)
+
+
+def _asked(questions: Mapping[str, Question], dimension: str) -> list[Question]:
+    return [q for q in questions.values() if q.dimension == dimension and q.group != "conclusion"]
+
+
+def _factor(
+    asked: Sequence[Question], submission: Submission, key: AnswerKey, names: Iterable[tuple[str, float]]
+) -> Factor | None:
+    """Return the named factor that these questions' numbers share, None without one."""
+    shared = _shared(_ratios(submission, key, asked))
+    if shared is None:
+        return None
+    codes = _codes(shared[0], names, max(question.tolerance for question in asked))
+    return Factor(codes, *shared) if codes else None
 
 
 def _ratios(submission: Submission, key: AnswerKey, asked: Iterable[Question]) -> dict[str, float]:

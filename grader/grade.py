@@ -15,8 +15,9 @@ from grader.factors import find_factors
 from grader.hints import one_hint_a_cause, with_marks
 from grader.model import UNSURE_ABOUT, Asked, Diagnosis, Finding, Grade, Kind, Outcome, Submission
 from grader.plausible import settle_readings
+from grader.reference import from_table
 
-GRADER_VERSION = "2"
+GRADER_VERSION = "3"
 """Goes into every run; raise it when the same submission could get other points."""
 
 TRACKING = Question("tracking", "Tracking table", "", "number", "", 0.0, "tracking", 0.0, "measurement")
@@ -58,12 +59,11 @@ def grade(submission: Submission, key: AnswerKey, assignment: Assignment) -> Gra
     questions = {question.id: question for question in assignment.questions}
     submission = settle_readings(submission, questions, key.values)
     factors = find_factors(submission, key, questions)
+    table = from_table(submission.tracking, key, assignment)
+    has_points = any(question.check == TRACKING.check for question in assignment.questions)
     judged = _Judged()
-    for question in in_order(assignment.questions):
-        asked = Asked(submission, key, question, judged.charged, factors, questions)
-        judged = _judge(judged, asked)
-    if not any(question.check == TRACKING.check for question in assignment.questions):
-        judged = _judge(judged, Asked(submission, key, TRACKING, judged.charged, factors, questions))
+    for question in (*in_order(assignment.questions), *(() if has_points else (TRACKING,))):
+        judged = _judge(judged, Asked(submission, key, question, judged.charged, factors, questions, table))
     diagnosis = (*diagnose_factors(factors, key, questions), *_diagnoses(submission, key, questions, judged.findings))
     findings = _named(judged.findings, diagnosis)
     return _sum_up(submission, assignment, findings, one_hint_a_cause(with_marks(diagnosis, judged.findings)))

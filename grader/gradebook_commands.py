@@ -98,6 +98,7 @@ def extend(
     given = Extension(pid, reason, assignment, hours, attempts)
     for line in extend_student(open_course(course), given):
         typer.echo(line)
+    typer.echo("Handouts that were made show the old date; feedback pages show the new one. Tell the student.")
 
 
 def verify(course: CourseOption, as_json: JsonOption = False) -> None:

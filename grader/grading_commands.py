@@ -17,6 +17,7 @@ from vml_course.commands._progress import progress
 
 if TYPE_CHECKING:
     from grader.grading import Graded
+    from grader.releasing import Change
 
 AssignmentArgument = Annotated[str, typer.Argument(metavar="ASSIGNMENT", help="Name, such as soccer-kick.")]
 ReceivedOption = Annotated[
@@ -101,9 +102,12 @@ def grade(
     Example: vml grade returned/*.xlsx --course dynamics-2026
     """
     from assignments.course import open_course
+    from assignments.load import load_assignment
     from grader.grading import Wanted, grade_again, grade_collected, grade_files
 
     opened = open_course(course)
+    for named in filter(None, (assignment, again)):
+        load_assignment(named, opened.assignments)
     moment = received and received.replace(tzinfo=received.tzinfo or opened.calendar.zone)
     wanted = Wanted(show_truth, moment, workers, cluster)
     with resumable(), progress("grading") as show:
@@ -158,8 +162,15 @@ def release(
         return
     for change in changes:
         if change.differs:
-            typer.echo(f"{change.student.pid}  {change.student.name:28}{change.before_text:>9} -> {change.after:g}")
+            typer.echo(f"{change.student.pid}  {change.student.name:28}{change.before_text:>9} -> {_after(change)}")
     typer.echo(f"{len(changes)} grades, {sum(change.differs for change in changes)} of them changed.")
+    open_ = sum(change.is_provisional for change in changes)
+    if open_:
+        typer.echo(f"{open_} may still become fewer points: settle them first with vml gradebook set.")
     typer.echo(
         "Nothing was released (--dry-run)." if dry_run else f"Next: vml export {assignment} --to csv --course {course}"
     )
+
+
+def _after(change: Change) -> str:
+    return f"{'up to ' if change.is_provisional else ''}{change.after:g}"

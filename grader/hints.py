@@ -34,6 +34,9 @@ KINEMATIC: Mapping[str, str] = {
     "K10": "y axis pointing down",
     "K11": "time shifted by some frames",
     "K12": "another length than L as the arm",
+    "K13": "two points exchanged",
+    "K14": "smoothed across the impact",
+    "K15": "x axis pointing to the left",
 }
 
 _KINEMATIC_HINTS: Mapping[str, str] = {
@@ -57,6 +60,9 @@ _KINEMATIC_HINTS: Mapping[str, str] = {
     "K10": "The y axis of your table points down. Pixels count downwards; the world's y points up.",
     "K11": "Your table is shifted in time. Which frame is frame 0?",
     "K12": "Foot speed and I fit another arm than L. Use the L of your handout, in metres.",
+    "K13": "Two points of your table look exchanged. Which column belongs to which point?",
+    "K14": "Your paths are rounded off at the impact: fit each side by itself, and smooth nothing across it.",
+    "K15": "The x axis of your table points to the left. The world's x points to the right of the picture.",
 }
 
 

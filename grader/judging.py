@@ -11,9 +11,12 @@ from assignments.textbook import textbook_of
 from assignments.theory import Concluded, Formula
 from grader.arm import CODE as ARM
 from grader.arm import with_arm
+from grader.clicks import spread_of_concluded, spread_of_measured
 from grader.model import Asked, Factor, Finding, Outcome
 from grader.own import OwnNumbers, own_numbers
+from grader.remarks import remarks_on_number, z_score
 from grader.stated import Stated, Unstated, state
+from grader.support import supported
 
 SDS = 3.0
 """A tolerance is never narrower than this many standard deviations of what the variant's video allows."""
@@ -65,7 +68,8 @@ def judge_measured(asked: Asked, explain: Callable[[Asked, Stated], str] | None 
     stated = state(asked.submission.answer(asked.question.id), asked.question)
     if isinstance(stated, Unstated):
         return (_unstated(asked, stated),)
-    value = _measured_value(asked, stated, asked.question.points * (1 - _UNIT_SHARE))
+    points = asked.question.points * (1 - _UNIT_SHARE)
+    value = _measured_value(asked, stated, points, spread_of_measured(asked))
     if explain is not None and value.outcome in {Outcome.WRONG, Outcome.PARTIAL} and not value.mistake:
         value = _with_mistake(value, explain(asked, stated))
     return _unit(asked, stated), value
@@ -92,13 +96,17 @@ def _unit(asked: Asked, stated: Stated) -> Finding:
     return Finding(question.id, "unit", Outcome.RIGHT, share, share, "The unit fits.")
 
 
-def _measured_value(asked: Asked, stated: Stated, points: float) -> Finding:
+def _measured_value(asked: Asked, stated: Stated, points: float, spread: float) -> Finding:
+    """Judge a value; `spread` is how far off clicks by hand may leave it."""
     truth, tolerance = asked.key.values[asked.question.id], tolerance_of(asked)
     numbers = {"value": stated.value, "truth": truth, "tolerance": tolerance.half_width}
     distance = abs(stated.value - truth)
 
+    numbers |= {} if stated.uncertainty is None else {"uncertainty": stated.uncertainty, "z": z_score(stated, truth)}
+    remarks = list(remarks_on_number(stated, asked.question, asked.key, tolerance.half_width))
+
     def finding(outcome: Outcome, share: float, message: str, mistake: str = "", *, carried: bool = False) -> Finding:
-        at = asked.question.id
+        at, message = asked.question.id, " ".join([message, *remarks])
         return Finding(at, "value", outcome, share * points, points, message, numbers, mistake, carried)
 
     if distance <= tolerance.half_width and not stated.in_pixels:
@@ -111,6 +119,8 @@ def _measured_value(asked: Asked, stated: Stated, points: float) -> Finding:
         return finding(Outcome.PARTIAL, 0.5, f"Close, but not {tolerance.words}, which earns full points.")
     if abs(stated.value + truth) <= tolerance.half_width:
         return finding(Outcome.PARTIAL, 0.5, "The size is right, the sign is not. Which direction is positive?", "K6")
+    if distance <= spread:
+        return finding(Outcome.PARTIAL, 0.5, f"As near as points clicked by hand allow, but not {tolerance.words}.")
     return finding(Outcome.WRONG, 0.0, f"Not right: full points are given {tolerance.words}.")
 
 
@@ -160,7 +170,9 @@ def judge_concluded(asked: Asked) -> tuple[Finding, ...]:
     formula_finding = _formula(asked, stated, ways, concluded)
     share = 1.0 - _FORMULA_SHARE - (_UNIT_SHARE if has_unit else 0.0)
     follows = formula_finding.outcome is Outcome.RIGHT and _is_gated_in(asked, ways, concluded.formula)
-    value = _concluded_value(asked, stated, question.points * share, follows=follows)
+    spread = spread_of_concluded(asked, ways[0], concluded.formula) if follows else 0.0
+    value = _concluded_value(asked, stated, question.points * share, spread, follows=follows)
+    value = supported(asked, value, tolerance_of(asked).half_width)
     if formula_finding.outcome is Outcome.RIGHT and not follows and value.outcome is Outcome.WRONG:
         value = replace(value, message=f"{value.message} {_NOT_FOLLOWED}")
     return (*((_unit(asked, stated),) if has_unit else ()), formula_finding, value)
@@ -209,7 +221,7 @@ def follows_from(stated: Stated, way: OwnNumbers, formula: Formula) -> bool:
     expected = way.value(formula)
     if math.isnan(expected):
         return False
-    half_width = max(FORMULA_TOLERANCE * abs(expected), stated.half_unit + way.rounding(formula))
+    half_width = max(FORMULA_TOLERANCE * abs(expected), stated.half_unit + way.worst_rounding(formula))
     return abs(stated.value - expected) <= half_width
 
 
@@ -224,8 +236,8 @@ def _is_gated_in(asked: Asked, ways: tuple[OwnNumbers, ...], formula: Formula) -
     return textbook_of(asked.key.scene).is_possible(n) and ways[0].value(formula) > 0
 
 
-def _concluded_value(asked: Asked, stated: Stated, points: float, *, follows: bool) -> Finding:
-    finding = _measured_value(asked, stated, points)
+def _concluded_value(asked: Asked, stated: Stated, points: float, spread: float, *, follows: bool) -> Finding:
+    finding = _measured_value(asked, stated, points, spread)
     if finding.outcome in {Outcome.WRONG, Outcome.PARTIAL} and follows and _builds_on_an_error(asked):
         message = "It follows from your numbers; their error is counted where it arose and costs nothing here."
         at, numbers = asked.question.id, finding.numbers

@@ -9,6 +9,7 @@ from enum import StrEnum
 import numpy as np
 
 from assignments.model import AnswerKey, Question
+from grader.tracked import FromTable
 from vml_course.model.arrays import FloatArray, set_frozen
 
 
@@ -229,6 +230,8 @@ class Asked:
         Common factors found in the velocities and angular velocities.
     questions : mapping of str to Question
         All questions of the assignment, to read the numbers that an answer is built from.
+    table : FromTable
+        The tracking table over the truth, and what the reference method makes of it.
     """
 
     submission: Submission
@@ -237,3 +240,4 @@ class Asked:
     charged: frozenset[str] = frozenset()
     factors: tuple[Factor, ...] = ()
     questions: Mapping[str, Question] = field(default_factory=dict)
+    table: FromTable = field(default_factory=FromTable)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
 from assignments.model import AnswerKey, Question
@@ -27,23 +27,28 @@ class OwnNumbers:
         return value_of(formula, self.numbers)
 
     def rounding(self, formula: Formula) -> float:
-        """Return how much rounding of the written numbers can move a formula's value, never more than 5 %."""
+        """Return how much rounding of the written numbers usually moves a formula's value, never more than 5 %."""
+        return min(self.spread(formula, self.half_units), _LARGEST_ROUNDING * abs(self.value(formula)))
+
+    def worst_rounding(self, formula: Formula) -> float:
+        """Return how much it can move it when all errors go the same way, never more than 5 %."""
+        return min(sum(self._moves(formula, self.half_units)), _LARGEST_ROUNDING * abs(self.value(formula)))
+
+    def spread(self, formula: Formula, off: Mapping[str, float]) -> float:
+        """Return how far a formula's value moves when each field is off by so much, independently of the others."""
+        return math.hypot(*self._moves(formula, off))
+
+    def _moves(self, formula: Formula, off: Mapping[str, float]) -> Iterator[float]:
         value = self.value(formula)
-        moves = (
-            self.value(_after(formula, replace(self.numbers, **{name: getattr(self.numbers, name) + half}))) - value
-            for name, half in self.half_units.items()
-            if half > 0
-        )
-        total = math.hypot(*(move for move in moves if math.isfinite(move)))
-        return min(total, _LARGEST_ROUNDING * abs(value))
+        for name, step in off.items():
+            moved = replace(self.numbers, **{name: getattr(self.numbers, name) + step})
+            move = abs(value_of(formula, moved) - value)
+            if step > 0 and math.isfinite(move):
+                yield move
 
     def with_arm(self, length: float) -> OwnNumbers:
         """Return the same velocities on another arm, in metres."""
         return replace(self, numbers=replace(self.numbers, L=length))
-
-
-def _after(formula: Formula, numbers: Numbers) -> Formula:
-    return lambda _: formula(numbers)
 
 
 def true_numbers(key: AnswerKey) -> Numbers:

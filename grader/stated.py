@@ -32,6 +32,8 @@ class Stated:
     unit_given : bool
     in_pixels : bool
         The unit says honestly that it is pixels.
+    uncertainty : float or None
+        What was written behind ±, in the question's SI unit; None when nothing was.
     """
 
     value: float
@@ -39,6 +41,7 @@ class Stated:
     text: str
     unit_given: bool
     in_pixels: bool = False
+    uncertainty: float | None = None
 
 
 @dataclass(frozen=True)
@@ -113,7 +116,8 @@ def _from_text(answer: Answer, text: str, question: Question) -> Stated | Unstat
         return _unreadable(error)
     written = answer.read_as or answer.text
     shown = written if text.strip() == written else f"{written} {reading.unit}".strip()
-    return Stated(reading.value, _half_unit(text, reading, question), shown, not reading.unit_assumed)
+    half_unit, is_given = _half_unit(text, reading, question), not reading.unit_assumed
+    return Stated(reading.value, half_unit, shown, is_given, uncertainty=reading.uncertainty)
 
 
 def _in_pixels(text: str, question: Question) -> Stated | Unstated:

@@ -6,6 +6,7 @@ scale, shift and time lag are fitted, then the remaining distance is measured in
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -16,8 +17,12 @@ from vml_course.model.arrays import FloatArray
 
 LEAST_ROWS = 10
 LARGEST_LAG = 12.0  # frames
-_Search = tuple[tuple[float, float], ...]
-_SEARCH: _Search = ((1.0, LARGEST_LAG), (0.25, 1.0), (0.05, 0.25))  # step and reach, frames
+_FINE = 0.05  # frames
+HOPELESS, CLEARLY = 0.05, 0.2
+"""Points are tried the other way round when the rest is more than this part of their paths, and that must be so much
+better."""
+
+_SIGNS = ((1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0))
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,8 +39,10 @@ class TrajectoryFit:
         The table's metres over true metres: 1 when calibrated, `px_per_m` when still in pixels.
     lag_frames : float
         By how many frames the table is late.
-    y_down : bool
-        Whether y was left pointing down.
+    y_down, x_left : bool
+        Whether y was left pointing down, or x points to the left.
+    swapped : tuple of str
+        Two points whose columns were exchanged; () when none were.
     own_m, true_m : float array, shape (n, p, 2)
         Both in true metres, y up, about the picture's origin; NaN where the student has no number.
     """
@@ -49,15 +56,25 @@ class TrajectoryFit:
     y_down: bool
     own_m: FloatArray
     true_m: FloatArray
+    x_left: bool = False
+    swapped: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
 class _Trial:
     lag: float
-    y_down: bool
+    signs: tuple[float, float]
     scale: float
     shift: FloatArray
     rms: float
+
+
+@dataclass(frozen=True)
+class _Search:
+    """Where the delay of a table is looked for: around `start`, in steps over a reach, ever finer; frames."""
+
+    start: float = 0.0
+    steps: tuple[tuple[float, float], ...] = ((1.0, LARGEST_LAG), (0.25, 1.0), (_FINE, 0.25))
 
 
 def fit_trajectory(
@@ -71,7 +88,7 @@ def fit_trajectory(
         Columns `frame` (or `t_s`) and `<point>_x_m`, `<point>_y_m`.
     key : AnswerKey
     lag_frames : float, optional
-        How late the table is, where an earlier fit found it: searching is most of the work.
+        The delay, where an earlier fit has found it.
     """
     px_per_m = key.truth["px_per_m"]
     frame, points, own = _table(tracking, key)
@@ -79,12 +96,11 @@ def fit_trajectory(
     if frame is None or not points or np.isfinite(own[..., 0]).sum() < LEAST_ROWS:
         return None
     truth = true_m[:, [key.points.index(point) for point in points]]
-    search = _SEARCH if lag_frames is None else ((1.0, 0.0),)
-    best = _best(frame, own, key.frame.astype(float), truth, search, lag_frames or 0.0)
+    true_frame = key.frame.astype(float)
+    search = _Search() if lag_frames is None else _Search(lag_frames, ((1.0, 0.0),))
+    best, order = _best_order(frame, own, true_frame, truth, search)
     if best is None:
         return None
-    flip = np.array([1.0, -1.0 if best.y_down else 1.0])
-    at = _shifted(key.frame.astype(float), truth, frame - best.lag)
     return TrajectoryFit(
         points=points,
         frame=frame,
@@ -92,10 +108,29 @@ def fit_trajectory(
         rms_px=best.rms * px_per_m,
         scale_ratio=1.0 / best.scale,
         lag_frames=best.lag,
-        y_down=best.y_down,
-        own_m=own * flip * best.scale + best.shift,
-        true_m=at,
+        y_down=best.signs[1] < 0,
+        own_m=own[:, order] * np.array(best.signs) * best.scale + best.shift,
+        true_m=_shifted(true_frame, truth, frame - best.lag),
+        x_left=best.signs[0] < 0,
+        swapped=tuple(point for k, point in enumerate(points) if order[k] != k),
     )
+
+
+def _best_order(
+    frame: FloatArray, own: FloatArray, true_frame: FloatArray, truth: FloatArray, search: _Search
+) -> tuple[_Trial | None, list[int]]:
+    """Fit the points as they are named; where that is hopeless, with two of them exchanged."""
+    usual = list(range(own.shape[1]))
+    best, order = _best(frame, own, true_frame, truth, search), usual
+    spread = float(np.nanstd(truth, axis=0).max())
+    if best is not None and best.rms <= HOPELESS * spread:
+        return best, usual
+    for one, other in itertools.combinations(usual, 2):
+        exchanged = [{one: other, other: one}.get(k, k) for k in usual]
+        trial = _best(frame, own[:, exchanged], true_frame, truth, search)
+        if trial is not None and (best is None or trial.rms < CLEARLY * best.rms):
+            best, order = trial, exchanged
+    return best, order
 
 
 def _table(tracking: Mapping[str, FloatArray], key: AnswerKey) -> tuple[FloatArray | None, tuple[str, ...], FloatArray]:
@@ -114,15 +149,15 @@ def _table(tracking: Mapping[str, FloatArray], key: AnswerKey) -> tuple[FloatArr
 
 
 def _best(
-    frame: FloatArray, own: FloatArray, true_frame: FloatArray, truth: FloatArray, search: _Search, start: float
+    frame: FloatArray, own: FloatArray, true_frame: FloatArray, truth: FloatArray, search: _Search
 ) -> _Trial | None:
-    """Search the lag coarsely, then finely, for both directions of y."""
+    """Search the lag coarsely, then finely, for all directions of both axes."""
     best: _Trial | None = None
-    for step, reach in search:
-        centre = best.lag if best else start
+    for step, reach in search.steps:
+        centre, signs = (best.lag, (best.signs,)) if best else (search.start, _SIGNS)
         for lag in np.arange(centre - reach, centre + reach + step / 2, step):
-            for y_down in (False, True) if step == 1.0 else (best.y_down if best else False,):
-                trial = _trial(float(lag), y_down, own, _shifted(true_frame, truth, frame - lag))
+            at = _shifted(true_frame, truth, frame - lag)
+            for trial in (_trial(float(lag), directions, own, at) for directions in signs):
                 if trial is not None and (best is None or trial.rms < best.rms):
                     best = trial
     return best
@@ -137,12 +172,12 @@ def _shifted(true_frame: FloatArray, truth: FloatArray, at: FloatArray) -> Float
     return result
 
 
-def _trial(lag: float, y_down: bool, own: FloatArray, truth: FloatArray) -> _Trial | None:  # noqa: FBT001 - one of two
+def _trial(lag: float, signs: tuple[float, float], own: FloatArray, truth: FloatArray) -> _Trial | None:
     """Fit one scale and one shift by least squares: truth = scale * own + shift."""
     seen = np.isfinite(own).all(axis=2) & np.isfinite(truth).all(axis=2)
     if seen.sum() < LEAST_ROWS:
         return None
-    a = own[seen] * np.array([1.0, -1.0 if y_down else 1.0])
+    a = own[seen] * np.array(signs)
     b = truth[seen]
     a0, b0 = a - a.mean(axis=0), b - b.mean(axis=0)
     spread = float((a0**2).sum())
@@ -150,4 +185,4 @@ def _trial(lag: float, y_down: bool, own: FloatArray, truth: FloatArray) -> _Tri
     if scale <= 0:
         return None
     rms = float(np.sqrt(((a0 * scale - b0) ** 2).sum(axis=1).mean()))
-    return _Trial(lag, y_down, scale, b.mean(axis=0) - scale * a.mean(axis=0), rms)
+    return _Trial(lag, signs, scale, b.mean(axis=0) - scale * a.mean(axis=0), rms)

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+import numpy as np
+
 from grader.model import Asked, Finding, Outcome
-from grader.trajectory import TrajectoryFit, fit_trajectory
+from grader.smoothed import smoothing_of
+from grader.trajectory import TrajectoryFit
 
 GOOD_PX = 1.0  # what a careful hand reaches; correlation tracking is twenty times better
 POOR_PX = 4.0
+_RATE_APART = 0.02
 
 
 def tracking(asked: Asked) -> tuple[Finding, ...]:
@@ -16,12 +20,12 @@ def tracking(asked: Asked) -> tuple[Finding, ...]:
 
     A shifted origin costs nothing.
     """
-    fit = fit_trajectory(asked.submission.tracking, asked.key)
+    fit = asked.table.fit
     points, at = asked.question.points, asked.question.id
     if fit is None:
         message = "There is no tracking table with ten rows or more to compare."
         return (Finding(at, "table", Outcome.UNSURE if points else Outcome.PARTIAL, points, points, message),)
-    slips = list(_slips(fit, asked.key.truth["px_per_m"]))
+    slips = list(_slips(fit, asked))
     outcome = _outcome(fit, is_clean=not slips)
     share = {Outcome.RIGHT: 1.0, Outcome.PARTIAL: 0.5}.get(outcome, 0.0)
     numbers = {"rms_px": fit.rms_px, "scale_ratio": fit.scale_ratio, "lag_frames": fit.lag_frames}
@@ -38,19 +42,41 @@ def _outcome(fit: TrajectoryFit, *, is_clean: bool) -> Outcome:
     return Outcome.RIGHT if fit.rms_px <= GOOD_PX and is_clean else Outcome.PARTIAL
 
 
-def _slips(fit: TrajectoryFit, px_per_m: float) -> Iterator[tuple[str, str]]:
+def _slips(fit: TrajectoryFit, asked: Asked) -> Iterator[tuple[str, str]]:
+    if fit.swapped:
+        yield "K13", f"The columns of {' and '.join(fit.swapped)} look exchanged."
     if fit.y_down:
         yield "K10", "The y axis points down in your table; it should point up."
+    if fit.x_left:
+        yield "K15", "The x axis points to the left in your table; it should point to the right."
     if abs(fit.scale_ratio - 1) > 0.02:
-        yield (
-            _scale_slip(fit.scale_ratio, px_per_m),
-            "Its lengths are not the true ones: check the calibration.",
-        )
+        code = _scale_slip(fit.scale_ratio, asked.key.truth["px_per_m"])
+        yield code, "Its lengths are not the true ones: check the calibration."
     if abs(fit.lag_frames) > 0.3:
         yield "K11", f"It is {abs(fit.lag_frames):.1f} frames {'late' if fit.lag_frames > 0 else 'early'}."
+    yield from _clock(asked)
+    if smoothing_of(fit, asked.key):
+        yield "K14", "Its paths are rounded off at the impact: it looks smoothed across it. Fit each side by itself."
 
 
 def _scale_slip(ratio: float, px_per_m: float) -> str:
     """Return the code of a table's wrong scale: one with a name, else K7."""
-    named = (("K1", px_per_m), ("K3", 3.28084), ("K4", 100.0), ("K4b", 1000.0), ("K5", 2.0), ("K5b", 0.5))
+    named = (
+        ("K1", px_per_m), ("K1b", px_per_m**2), ("K3", 3.28084), ("K3b", 39.3701), ("K4", 100.0), ("K4b", 1000.0),
+        ("K5", 2.0), ("K5b", 0.5),
+    )  # fmt: skip
     return next((code for code, factor in named if abs(ratio / factor - 1) <= 0.02), "K7")
+
+
+def _clock(asked: Asked) -> Iterator[tuple[str, str]]:
+    """Compare the table's times with its own frame numbers."""
+    columns, fps = asked.submission.tracking, asked.key.truth["fps"]
+    if not {"frame", "t_s"} <= columns.keys():
+        return
+    steps, seconds = np.diff(columns["frame"]), np.diff(columns["t_s"])
+    usable = np.isfinite(steps) & np.isfinite(seconds) & (steps > 0) & (seconds > 0)
+    rate = float(np.median(steps[usable] / seconds[usable])) if usable.any() else fps
+    if abs(rate - 1) <= _RATE_APART:
+        yield "K2b", "Its times are frame numbers; time is frame number divided by frame rate."
+    elif abs(rate / fps - 1) > _RATE_APART:
+        yield "K2", f"Its times run at {rate:.4g} frames a second; the recording has another rate."

@@ -49,7 +49,8 @@ def trajectory_m(n: ImpactNumbers, frames: int = 60, at_s: float = 0.06) -> np.n
     t = np.arange(frames) / FPS - at_s
     angle = -math.pi / 2 + np.where(t < 0, n.omega1 * t, n.omega2 * t)
     foot = np.stack([0.5 + n.L * np.cos(angle), 0.3 + n.L * np.sin(angle)], axis=1)
-    ball = np.stack([1.0 + np.where(t < 0, 0.0, n.u2 * t), np.full_like(t, -0.3)], axis=1)
+    flown = np.maximum(t, 0.0)  # from the tee, falling freely
+    ball = np.stack([1.0 + n.u2 * flown, -0.3 - 0.5 * 9.81 * flown**2], axis=1)
     return np.stack([foot, np.tile([0.5, 0.3], (frames, 1)), ball], axis=1)
 
 
@@ -63,7 +64,7 @@ def key_of(n: ImpactNumbers, **changes) -> AnswerKey:
         "expected_sd": {},
         "measured": {},
         "given": {"m": n.m, "L": n.L, "D": n.D},
-        "truth": {"px_per_m": SCALE, "fps": FPS, "t_impact_s": 0.06, "R": n.D / 2},
+        "truth": {"px_per_m": SCALE, "fps": FPS, "t_impact_s": 0.06, "frame_before": 28.0, "R": n.D / 2},
         "video_sha256": "0" * 64,
         "versions": {},
         "points": POINTS,
@@ -125,8 +126,13 @@ class Desk:
     def units(self) -> dict[str, str]:
         return {question.id: question.unit for question in self.assignment.questions if question.unit}
 
+    @property
+    def table(self) -> dict[str, np.ndarray]:
+        return table_of(trajectory_m(self.numbers))
+
     def grade(self, changes: Mapping[str, float | str] | None = None, units=None, tracking=None) -> Grade:
-        submission = submission_of(self.assignment, {**self.truth, **(changes or {})}, units, tracking)
+        table = self.table if tracking is None else tracking
+        submission = submission_of(self.assignment, {**self.truth, **(changes or {})}, units, table)
         return grade(submission, self.key, self.assignment)
 
     def workbook(self, changes: Mapping[str, float | str] | None = None, units=None, tracking=None) -> Path:

@@ -481,3 +481,35 @@ def test_mistakes_are_one_line(arguments, capsys, tmp_path, monkeypatch):
     captured = capsys.readouterr()
     assert captured.out == ""
     assert captured.err.count("\n") == 1
+
+
+# ---------------------------------------------------------------- comparing a class
+
+
+def test_a_class_is_compared_and_no_grade_changes(room, capsys):
+    """The third student hands in the table of the first one."""
+    files = [room.workbook(i) for i in range(2)]
+    copied = room.kit.table_of(np.round(room.kit.trajectory_m(room.numbers(0)), 6))
+    empty, third = room.course.folder / "empty.xlsx", room.course.folder / "third.xlsx"
+    write_workbook(empty, room.assignment, room.variant(2), {g.id: 1.0 for g in room.assignment.givens})
+    fill_workbook(empty, third, room.kit.rounded(room.kit.true_values(room.numbers(2))), {}, copied)
+    grade_files(room.course, [*files, third])
+    with Gradebook.open(room.course) as book:
+        before = book.rows()
+    assert run(["integrity", "soccer-kick", "--course", str(room.course.folder)]) == 0
+    said = capsys.readouterr().out
+    (line,) = (line for line in said.splitlines() if "other-video" in line)
+    assert line.split()[:2] == [room.students[2].pid, room.students[0].pid]
+    assert "3 workbooks compared" in said
+    assert "not a verdict" in said
+    assert run(["integrity", "soccer-kick", "--course", str(room.course.folder), "--json"]) == 0
+    again = json.loads(capsys.readouterr().out)
+    assert again["new"] == 0
+    assert again["evidence"]
+    with Gradebook.open(room.course) as book:
+        assert book.rows() == before
+
+
+def test_comparing_an_unknown_assignment_is_one_line(room, capsys):
+    assert run(["integrity", "soccer-kik", "--course", str(room.course.folder)]) == 2
+    assert "soccer-kick" in capsys.readouterr().err

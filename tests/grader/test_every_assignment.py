@@ -60,6 +60,17 @@ def written(assignment: Assignment, key: AnswerKey, rng: np.random.Generator | N
     return {**values, **{name: float(f"{value:.4g}") for name, value in conclusions.items()}}
 
 
+def table_of(assignment: Assignment, key: AnswerKey, noise_px: float = 0.0, seed: int = 0) -> dict[str, np.ndarray]:
+    """The tracking table of a student who tracked rightly, in metres."""
+    at_px = key.xy_px[:, [key.points.index(point) for point in assignment.points]]
+    off_px = noise_px * np.random.default_rng(seed).standard_normal(at_px.shape)
+    xy_m = (at_px + off_px) * np.array([1.0, -1.0]) / key.truth["px_per_m"]
+    columns = {"frame": key.frame.astype(float), "t_s": key.time_s}
+    for number, point in enumerate(assignment.points):
+        columns |= {f"{point}_x_m": xy_m[:, number, 0], f"{point}_y_m": xy_m[:, number, 1]}
+    return columns
+
+
 def own(assignment: Assignment, key: AnswerKey, values):
     book = textbook_of(assignment.scene)
     fields = {item.field: values[item.id] for item in book.measured if item.id in values}
@@ -76,7 +87,8 @@ def asked_mistakes(assignment: Assignment) -> list[Mistake]:
 @pytest.mark.parametrize("name", assignment_ids())
 def test_a_perfect_student_earns_everything(kit, name):
     taught = class_of(name)
-    submission = kit.submission_of(taught.assignment, written(taught.assignment, taught.key))
+    table = table_of(taught.assignment, taught.key, noise_px=0.02)
+    submission = kit.submission_of(taught.assignment, written(taught.assignment, taught.key), tracking=table)
     result = grade(submission, taught.key, taught.assignment)
     assert (result.points, result.out_of, result.status) == (20.0, 20.0, "ok"), result.findings
     assert result.diagnosis == ()

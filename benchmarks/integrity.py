@@ -1,0 +1,136 @@
+"""How often honest students come under suspicion, and how many copies are found: whole classes, simulated.
+
+    python benchmarks/integrity.py [--classes 12] [--students 300] [--assignment swinging-door] [--workers 2]
+
+Each class has its students' own variants; half of the tables are tracked (noise of 0.02 px in each coordinate), half
+clicked by hand (1 px). An honest class holds no copy. A copied class holds for each kind of copy some students who
+hand in a table that was made of a classmate's. The last line tells what comparing one class costs.
+"""
+
+from __future__ import annotations
+
+import argparse
+import time
+from collections import Counter
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+from support.students import desk_of, scales_of, submission_of, table, tables_of
+
+from assignments.load import load_assignment
+from grader.integrity import HandedIn, compare
+from vml_course.executors import each_done, open_executor
+
+SECRET = bytes(range(7, 39))
+COPIES = 5  # of each kind, in a copied class
+
+
+@dataclass(frozen=True)
+class Order:
+    """One class."""
+
+    assignment: str
+    students: int
+    seed: int
+    is_copied: bool = False
+
+
+@cache
+def desks(name, students):
+    assignment = load_assignment(name)
+    return [desk_of(assignment, SECRET, f"s{k}") for k in range(students)]
+
+
+def handed_in(desk, pid, columns):
+    return HandedIn(pid, submission_of(desk, {}, columns), desk.key)
+
+
+def own_table(desk, rng):
+    noise_px = float(rng.choice((0.02, 1.0)))
+    (xy_px,) = tables_of(desk, noise_px, 1, rng)
+    (px_per_m,) = scales_of(desk, noise_px, 1, rng)
+    columns = table(desk, xy_px, px_per_m)
+    return {name: np.round(column, 4 if noise_px == 1.0 else 6) for name, column in columns.items()}
+
+
+def changed(columns, rng, jitter_px=0.0, scale=1.0, shift=0.0, lag=0):
+    """Return a copy that somebody tried to make their own."""
+    made = {}
+    for name, column in columns.items():
+        is_place = name.endswith("_m")
+        noise = jitter_px / 500 * rng.standard_normal(len(column)) if is_place else 0.0
+        made[name] = scale * column + shift + noise if is_place else column + (lag if name == "frame" else 0)
+    return made
+
+
+KINDS = {
+    "as it is": {},
+    "jitter 0.1 px": {"jitter_px": 0.1},
+    "jitter 0.5 px": {"jitter_px": 0.5},
+    "jitter 1 px": {"jitter_px": 1.0},
+    "another scale and origin": {"scale": 1.07, "shift": 0.35},
+    "frames counted from 5": {"lag": 5},
+    "all of it": {"jitter_px": 0.5, "scale": 0.96, "shift": -0.2, "lag": 3},
+}
+
+
+def run(order):
+    """Return what was found in one class: (kind of copy or "", method) by number, and the processor's seconds."""
+    rng, all_desks = np.random.default_rng([order.seed, order.is_copied]), desks(order.assignment, order.students)
+    tables = [own_table(desk, rng) for desk in all_desks]
+    kind_of = {}
+    if order.is_copied:
+        for number, (kind, how) in enumerate((kind, how) for kind, how in KINDS.items() for _ in range(COPIES)):
+            copier, giver = 2 * number, 2 * number + 1
+            tables[copier] = changed(tables[giver], rng, **how)
+            kind_of[f"s{copier}"] = (kind, f"s{giver}")
+    handed = [
+        handed_in(desk, f"s{k}", columns) for k, (desk, columns) in enumerate(zip(all_desks, tables, strict=True))
+    ]
+    began = time.process_time()
+    found = compare(handed)
+    cpu_s = time.process_time() - began
+    told = Counter()
+    for item in found:
+        copied = next((kind_of[p] for p in (item.pid, item.other) if p in kind_of), ("", ""))
+        is_pair = {item.pid, item.other} >= {copied[1]} and copied[0]
+        told[copied[0] if is_pair else "", item.method] += 1
+    return told, cpu_s
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--classes", type=int, default=12)
+    parser.add_argument("--students", type=int, default=300)
+    parser.add_argument("--assignment", default="swinging-door")
+    parser.add_argument("--workers", type=int, default=2)
+    parser.add_argument("--seed", type=int, default=1)
+    wanted = parser.parse_args()
+    honest = [Order(wanted.assignment, wanted.students, wanted.seed + k) for k in range(wanted.classes)]
+    suspected, spoilt, seconds = Counter(), 0, []
+    with open_executor(wanted.workers) as executor:
+        for _, future in each_done(executor, run, honest):
+            told, cpu_s = future.result()
+            suspected += told
+            spoilt += bool(told)
+            seconds.append(cpu_s)
+    pairs = wanted.classes * wanted.students * (wanted.students - 1) // 2
+    print(
+        f"{wanted.classes} honest classes of {wanted.students}, {pairs:.2g} pairs: {spoilt} with a suspicion", end=" "
+    )
+    print(f"({dict(suspected)}). Where there was none, 95 % sure: in fewer than {3 / wanted.classes:.1%} of classes.")
+    told, cpu_s = run(Order(wanted.assignment, wanted.students, wanted.seed, is_copied=True))
+    methods = ("other-video", "same-noise", "same-cells")
+    print("\n| copy | copies | " + " | ".join(methods) + " |")
+    print("|---|---:|" + "---:|" * len(methods))
+    for kind in KINDS:
+        print(f"| {kind} | {COPIES} | " + " | ".join(str(told[kind, method]) for method in methods) + " |")
+    print("| honest ones beside them | | " + " | ".join(str(told["", method]) for method in methods) + " |")
+    print(
+        f"\nComparing {wanted.students} tables: {np.median(seconds):.1f} s of one processor, with copies {cpu_s:.1f} s."
+    )
+
+
+if __name__ == "__main__":
+    main()
