@@ -19,6 +19,7 @@ from markupsafe import Markup, escape
 from numpy.typing import NDArray
 
 from assignments.errors import AssignmentFileError
+from assignments.load import is_of_catalogue
 from assignments.model import Assignment, Variant
 from assignments.names import vector_of
 from assignments.words import split_symbol, tolerance_text, tracking_columns
@@ -160,9 +161,10 @@ def render_handout(
     environment.filters.update(symbol=symbol_html, number=number_text, unit=unit_text, tolerance=tolerance_text)
     told = {"assignment": assignment, "code": variant.code, "given": given, "picture": picture}
     columns, vector = tracking_columns(assignment.points), vector_of(assignment.scene)
+    can_check = is_of_catalogue(assignment.folder)
     try:
         template = environment.get_template(assignment.handout_template)
-        return template.render(**told, columns=columns, vector=vector, video=video, due=due)
+        return template.render(**told, columns=columns, vector=vector, video=video, due=due, can_check=can_check)
     except TemplateError as error:
         raise AssignmentFileError(
             f"{assignment.id}/{assignment.handout_template}",

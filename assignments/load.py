@@ -24,6 +24,11 @@ def catalogue() -> Path:
     return Path(str(importlib.resources.files("assignments"))) / "catalog"
 
 
+def is_of_catalogue(folder: str | Path) -> bool:
+    """Tell whether an assignment's folder is one of this package, which every student's `vml` has."""
+    return Path(folder).resolve().parent == catalogue().resolve()
+
+
 def assignment_ids() -> tuple[str, ...]:
     """Return the assignments of the catalogue: one folder each, the one to begin with first."""
     names = (folder.name for folder in catalogue().iterdir() if (folder / FILE).is_file())

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from grader._options import CourseOption, JsonOption, print_json
+from grader._options import CourseOption, JsonOption, print_json, the_course
 from grader.grading_commands import AssignmentArgument
 
 if TYPE_CHECKING:
@@ -58,11 +58,10 @@ def export(
 
     Example: vml export soccer-kick --to canvas --template Grades-DYN.csv --course dynamics-2026
     """
-    from assignments.course import open_course
     from grader.exporting import Wish, export_grades
 
     wish = Wish(template, out, column, decimal.value, wheels)
-    done = export_grades(open_course(course), assignment, to, wish)
+    done = export_grades(the_course(course), assignment, to, wish)
     if as_json:
         print_json(asdict(done))
     else:

@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from grader._options import CourseOption, JsonOption, print_json
+from grader._options import CourseOption, JsonOption, print_json, the_course
 
 PidArgument = Annotated[str, typer.Argument(metavar="PID", help="The student's pseudonym.")]
 
@@ -28,11 +28,10 @@ def show(course: CourseOption, as_json: JsonOption = False) -> None:
 
     Example: vml gradebook show --course dynamics-2026
     """
-    from assignments.course import open_course
     from grader.feedback import points_text
     from grader.gradebook import Gradebook
 
-    with Gradebook.open(open_course(course)) as book:
+    with Gradebook.open(the_course(course)) as book:
         rows, students = book.rows(), book.students()
     if as_json:
         print_json([asdict(row) for row in rows])
@@ -62,14 +61,13 @@ def set_(
 
     Example: vml gradebook set k3m9x2ab soccer-kick e 6 --reason "0.57 was meant" --course dynamics-2026
     """
-    from assignments.course import open_course
     from grader.adjust import Adjustment
     from grader.events import now
     from grader.feedback import points_text
     from grader.usecases import set_points
 
     adjustment = Adjustment(question, points, reason, getpass.getuser(), now())
-    row = set_points(open_course(course), assignment, pid, adjustment)
+    row = set_points(the_course(course), assignment, pid, adjustment)
     if as_json:
         print_json(asdict(row))
         return
@@ -91,12 +89,11 @@ def extend(
 
     Example: vml gradebook extend k3m9x2ab --hours 48 --reason "ill, note of 20 April" --course dynamics-2026
     """
-    from assignments.course import open_course
     from assignments.terms import Extension
     from grader.usecases import extend_student
 
     given = Extension(pid, reason, assignment, hours, attempts)
-    for line in extend_student(open_course(course), given):
+    for line in extend_student(the_course(course), given):
         typer.echo(line)
     typer.echo("Handouts that were made show the old date; feedback pages show the new one. Tell the student.")
 
@@ -106,10 +103,9 @@ def verify(course: CourseOption, as_json: JsonOption = False) -> None:
 
     Example: vml gradebook verify --course dynamics-2026
     """
-    from assignments.course import open_course
     from grader.verify import verify_course
 
-    report = verify_course(open_course(course))
+    report = verify_course(the_course(course))
     if as_json:
         print_json({**asdict(report), "is_whole": report.is_whole})
     else:

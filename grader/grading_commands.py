@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from grader._options import CourseOption, JsonOption, print_json, resumable
+from grader._options import CourseOption, JsonOption, print_json, resumable, the_course
 from vml_course.commands._progress import progress
 
 if TYPE_CHECKING:
@@ -45,11 +45,10 @@ def collect(
 
     Example: vml collect soccer-kick submissions.zip --course dynamics-2026
     """
-    from assignments.course import open_course
     from assignments.load import load_assignment
     from grader.collect import collect as take_in
 
-    opened = open_course(course)
+    opened = the_course(course)
     load_assignment(assignment, opened.assignments)
     with resumable(), progress("collecting") as show:
         found = take_in(opened, assignment, download, platform=lms, received=received, dry_run=dry_run, progress=show)
@@ -101,11 +100,10 @@ def grade(
 
     Example: vml grade returned/*.xlsx --course dynamics-2026
     """
-    from assignments.course import open_course
     from assignments.load import load_assignment
     from grader.grading import Wanted, grade_again, grade_collected, grade_files
 
-    opened = open_course(course)
+    opened = the_course(course)
     for named in filter(None, (assignment, again)):
         load_assignment(named, opened.assignments)
     moment = received and received.replace(tzinfo=received.tzinfo or opened.calendar.zone)
@@ -153,10 +151,9 @@ def release(
 
     Example: vml release soccer-kick --course dynamics-2026
     """
-    from assignments.course import open_course
     from grader.releasing import release_grades
 
-    changes = release_grades(open_course(course), assignment, who=getpass.getuser(), dry_run=dry_run)
+    changes = release_grades(the_course(course), assignment, who=getpass.getuser(), dry_run=dry_run)
     if as_json:
         print_json([asdict(change) for change in changes])
         return

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from grader._options import JsonOption, print_json, resumable
+from grader._options import JsonOption, print_json, resumable, the_course
 from vml_course.commands._progress import counted, progress
 from vml_course.errors import InputError
 
@@ -70,11 +70,10 @@ def handout(
 
 
 def _hand_out(course: str, assignment: str, pids: Sequence[str], workers: int, cluster: str, *, as_json: bool) -> None:
-    from assignments.course import open_course
     from grader.handing_out import hand_out_to
 
     with resumable(), counted("handing out", "students") as show:
-        handed = hand_out_to(open_course(course), assignment, pids, workers=workers, cluster=cluster, progress=show)
+        handed = hand_out_to(the_course(course), assignment, pids, workers=workers, cluster=cluster, progress=show)
     if as_json:
         print_json([asdict(item) for item in handed.results])
     else:
@@ -103,10 +102,9 @@ def _print_handed(handed: Handed) -> None:
 
 
 def _look_ahead(course: str, assignment: str, pids: Sequence[str], *, as_json: bool) -> None:
-    from assignments.course import open_course
     from grader.handing_out import expect
 
-    expected = expect(open_course(course), assignment, pids)
+    expected = expect(the_course(course), assignment, pids)
     if as_json:
         print_json([asdict(item) for item in expected])
         return
@@ -123,13 +121,12 @@ _SAID = {"already": "has it", "missing": "would get it", "new": "would get it"}
 
 
 def _plan(course: str, assignment: str, pids: Sequence[str], plot: Path | None, *, as_json: bool) -> None:
-    from assignments.course import open_course
     from assignments.plan_plot import draw_plan
     from grader.handing_out import plan_for
     from vml_course.chart.svg import to_svg
     from vml_course.io.files import replacing
 
-    opened = open_course(course)
+    opened = the_course(course)
     with resumable(), progress("looking ahead") as show:
         plan = plan_for(opened, assignment, pids, progress=show)
     home = opened.handouts(assignment).parent

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from grader._options import CourseOption, JsonOption, print_json
+from grader._options import CourseOption, JsonOption, print_json, the_course
 from vml_course.commands._progress import progress
 
 
@@ -27,11 +27,10 @@ def integrity(
 
     Example: vml integrity soccer-kick --course dynamics-2026
     """
-    from assignments.course import open_course
     from grader.comparing import compare_class
 
     with progress("comparing") as show:
-        result = compare_class(open_course(course), assignment, show)
+        result = compare_class(the_course(course), assignment, show)
     if as_json:
         print_json(asdict(result))
         return

@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from grader._options import CourseOption, JsonOption, print_json
+from grader._options import CourseOption, JsonOption, print_json, the_course
 
 
 def register(app: typer.Typer) -> None:
@@ -31,10 +31,9 @@ def import_(
 
     Example: vml roster import 2026-10-01_Grades-DYN.csv --course dynamics-2026
     """
-    from assignments.course import open_course
     from grader.rostering import import_roster
 
-    arrivals = import_roster(open_course(course), file, dry_run=dry_run)
+    arrivals = import_roster(the_course(course), file, dry_run=dry_run)
     if as_json:
         print_json([{"status": one.status, **asdict(one.student)} for one in arrivals])
         return
@@ -58,10 +57,9 @@ def list_(course: CourseOption, as_json: JsonOption = False) -> None:
 
     Example: vml roster list --course dynamics-2026
     """
-    from assignments.course import open_course
     from grader.rostering import roster_of
 
-    students = roster_of(open_course(course))
+    students = roster_of(the_course(course))
     if as_json:
         print_json([asdict(student) for student in students])
         return
@@ -77,10 +75,9 @@ def drop(
 
     Example: vml roster drop k3m9x2ab --course dynamics-2026
     """
-    from assignments.course import open_course
     from grader.rostering import drop_student
 
-    drop_student(open_course(course), pid)
+    drop_student(the_course(course), pid)
     typer.echo(f"{pid} is dropped. A class list that has them takes them in again.")
 
 
@@ -93,10 +90,9 @@ def purge(
 
     Example: vml roster purge --course dynamics-2024
     """
-    from assignments.course import open_course
     from grader.rostering import purge_names
 
-    opened = open_course(course)
+    opened = the_course(course)
     if not yes:
         typer.confirm("Names cannot be brought back from the gradebook. Remove them?", abort=True)
     number = purge_names(opened, dropped_only=dropped_only)

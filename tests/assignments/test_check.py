@@ -193,3 +193,21 @@ def test_bytes_that_are_no_text_are_a_mistake_of_the_file(tmp_path: Path) -> Non
     (folder / FILE).write_bytes(b"\xff\xfe")
     (found,) = check_file(folder).mistakes
     assert (found.line, found.key, found.expected) == (1, "file", "TOML in UTF-8")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "at", "words"),
+    [
+        ("{% endblock %}", "{% endblok %}", "{% endblok %}", "Encountered unknown tag 'endblok'"),
+        ("{{ video }}", "{{ vidio }}", "", "'vidio' is undefined"),
+    ],
+)
+def test_a_handout_that_cannot_be_written_is_a_mistake(tmp_path: Path, old: str, new: str, at: str, words: str) -> None:
+    folder = tmp_path / "my-kick"
+    shutil.copytree(catalogue() / "soccer-kick", folder)
+    file = folder / "handout.html.j2"
+    file.write_text(file.read_text(encoding="utf-8").replace(old, new, 1), encoding="utf-8")
+    (found,) = check_file(folder).mistakes
+    assert (found.file, words in found.got) == (str(file), True)
+    text = file.read_text(encoding="utf-8")
+    assert found.line == text[: text.index(at)].count("\n") + 1  # the first where Jinja does not say

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from assignments.course import COURSE_FILE, add_extension, new_course, open_course
+from assignments.course import COURSE_FILE, add_extension, new_course, open_course, strangers_in
 from assignments.errors import CourseError
 from assignments.terms import Extension, Late, Terms
 
@@ -160,3 +160,11 @@ def test_two_courses_of_like_names_have_homes_of_their_own(tmp_path: Path, monke
     one, other = new_course(f"memory://{tmp_path.name}/a-b"), new_course(f"memory://{tmp_path.name}/a/b")
     assert one.folder != other.folder
     assert one.secret != other.secret
+
+
+def test_terms_of_an_assignment_that_does_not_exist_are_said_to_have_no_effect(tmp_path: Path) -> None:
+    _course(tmp_path, FULL.replace("two-pucks", "two-puks"))
+    (line,) = strangers_in(open_course(tmp_path))
+    assert line.startswith("course.toml: 'two-puks' is no assignment of this course (ballistic-pendulum, bat-and-ball,")
+    (tmp_path / "assignments" / "two-puks").mkdir(parents=True)
+    assert strangers_in(open_course(tmp_path)) == []

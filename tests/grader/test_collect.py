@@ -270,6 +270,33 @@ def test_several_workers_grade_as_one_does(term: Term) -> None:
     assert [item.status for item in alone] == ["ok", "ok", "ok", "unreadable"]
 
 
+def test_a_persons_decision_is_on_the_students_page_at_once(term: Term, capsys) -> None:
+    path = term.course.folder / "w.xlsx"
+    path.write_bytes(term.file(0, e="about 0.6"))
+    (graded,) = grade_files(term.course, [path])
+    page = Path(graded.feedback)
+    assert "a person will look at this" in page.read_text(encoding="utf-8")
+    assert release_grades(term.course, SLUG, who="tutor", dry_run=True)[0].is_provisional
+    at = ["--course", str(term.course.folder)]
+    assert run(["gradebook", "set", term.pids[0], SLUG, "e", "4", "--reason", "0.6 was meant", *at]) == 0
+    text = page.read_text(encoding="utf-8")
+    assert "e set to 4 points: 0.6 was meant" in text
+    assert "A person decided: 0.6 was meant" in text
+    assert "up to" not in text
+    assert "a person will look" not in text
+    assert f"<strong>{_row(term, 0).points:g}</strong>" in text
+    capsys.readouterr()
+    assert run(["release", SLUG, *at]) == 0
+    assert "may still become fewer" not in capsys.readouterr().out
+
+
+def test_what_nobody_could_grade_stays_on_the_class_page(term: Term) -> None:
+    collect(term.course, SLUG, term.download(**{"s_901_1_lab.xlsx": b"no", "s_902_2_lab.xlsx": term.file(1)}))
+    grade_collected(term.course, SLUG)
+    page = (term.course.folder / "feedback" / SLUG / "class.html").read_text(encoding="utf-8")
+    assert f"lab.xlsx ({term.pids[0]})" in page
+
+
 def test_nothing_graded_cannot_be_released(term: Term) -> None:
     with pytest.raises(NothingGradedError, match="expected grades, got none"):
         release_grades(term.course, SLUG, who="tutor")

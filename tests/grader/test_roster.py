@@ -12,6 +12,7 @@ from assignments.course import new_course
 from grader.errors import RosterError
 from grader.gradebook import Gradebook
 from grader.roster import Enrolled, decoded, parse_roster
+from grader.rostering import import_roster, roster_of
 from vml_course.cli import run
 from vml_course.errors import InputError, VmlError
 
@@ -196,6 +197,33 @@ def test_who_is_dropped_stays_with_grades_and_comes_back_with_a_list(book) -> No
     assert [s.status for s in book.students()] == ["dropped"]
     (again,) = book.take_in([Enrolled("Ann", "ann@x.org")])
     assert (again.student.pid, again.student.status) == (ann.student.pid, "active")
+
+
+def test_who_was_dropped_is_not_brought_back_by_the_courses_own_list(book, tmp_path: Path) -> None:
+    own = tmp_path / "roster.csv"
+    own.write_text("name,email\nAnn,ann@x.org\nBen,ben@x.org\n", encoding="utf-8")
+    (ann, _) = book.students_from_roster(own)
+    book.set_status(ann.pid, "dropped")
+    assert [s.name for s in book.students_from_roster(own)] == ["Ann", "Ben"]
+    assert [s.name for s in book.students(active_only=True)] == ["Ben"]
+
+
+def test_the_sample_students_are_nobodys_once_a_class_is_taken_in(tmp_path: Path) -> None:
+    course, file = new_course(tmp_path / "c"), tmp_path / "canvas.csv"
+    file.write_text(CANVAS, encoding="utf-8")
+    import_roster(course, file, dry_run=True)
+    assert course.roster.is_file()
+    import_roster(course, file)
+    assert not course.roster.exists()
+    assert [s.name for s in roster_of(course)] == ["Doe, Jane", "Ærø, Søren"]
+
+
+def test_a_list_of_ones_own_stays_beside_one_that_is_taken_in(tmp_path: Path) -> None:
+    course, file = new_course(tmp_path / "c"), tmp_path / "canvas.csv"
+    course.roster.write_text("name,email\nAnn,ann@x.org\n", encoding="utf-8")
+    file.write_text(CANVAS, encoding="utf-8")
+    import_roster(course, file)
+    assert len(roster_of(course)) == 3
 
 
 def test_forgotten_names_are_gone_and_pseudonyms_stay(book) -> None:
