@@ -11,6 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from assignments.course import new_course
+from grader.adjust import Adjustment
 from grader.charts import histogram, scatter_chart
 from grader.class_page import class_page
 from grader.evidence import evidence_in
@@ -60,7 +61,7 @@ def test_unsure_answers_are_left_out_until_a_person_has_decided(assignment):
 
 
 def test_a_decision_outweighs_the_findings(assignment):
-    decided = wrong("e", 0, adjustments=("e: 0 points: copied",))
+    decided = wrong("e", 0, decisions=(Adjustment("e", 0.0, "copied", "ann", "2026-05-01"),))
     items = items_of(assignment, [decided], {"pid00": Evidence((value("e", 1, 1),))})
     assert next(item.facility for item in items if item.question.id == "e") == 0.0
 

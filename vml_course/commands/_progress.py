@@ -62,14 +62,18 @@ def counted(title: str, things: str) -> Iterator[Callable[[int, int], None]]:
             return Text(f"{60 * speed:.3g} {things}/min" if speed else "")
 
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), Rate(), TimeRemainingColumn())
-    with Progress(*columns, console=Console(stderr=True)) as bar:
-        task = bar.add_task(title, total=None, visible=False)
+    bar = Progress(*columns, console=Console(stderr=True))
+    task = bar.add_task(title, total=None, visible=False)
 
-        def show(done: int, total: int) -> None:
-            is_first = bar.tasks[0].total is None
-            if is_first:
-                bar.reset(task, total=total, completed=done, visible=done < total)
-            else:
-                bar.update(task, completed=done)
+    def show(done: int, total: int) -> None:
+        if bar.tasks[0].total is None:
+            bar.start()
+            bar.reset(task, total=total, completed=done, visible=done < total)
+        else:
+            bar.update(task, completed=done)
 
+    try:
         yield show
+    finally:
+        if bar.tasks[0].total is not None:  # a bar that never began must not leave an empty line before an error
+            bar.stop()
