@@ -36,7 +36,7 @@ from grader.items import evidence_of
 from grader.model import Answer, Kind, Outcome, Submission, overall
 
 SECRET = bytes(range(32))
-CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
+CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 # The sd of each number that the reference reaches on such videos, as parts of the value.
 SD_PARTS = {"omega1": 3e-4, "omega2": 4e-4, "v_f1": 4e-4, "v_f2": 5e-4, "v_b2": 1e-4, "e": 3e-3, "I": 2e-3}
 
