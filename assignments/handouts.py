@@ -15,11 +15,12 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from assignments.bundle import unzipped, zip_bytes
+from assignments.course import HANDOUTS
 from assignments.release import WORKBOOK
 from vml_course.errors import FileMissingError, InputError
 from vml_course.io.shelf import Shelf
 
-HANDOUTS, ZIPS = "handouts", "zips"
+ZIPS = "zips"
 PART_BYTES = 100_000_000  # of a bundle: platforms refuse larger files, or need much memory for them
 
 Entry = list[str]

@@ -12,7 +12,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from assignments.handouts import HANDOUTS
+from assignments.course import HANDOUTS
 from assignments.model import AnswerKey
 from assignments.names import names_in
 from vml_course.errors import FileMissingError, VmlError

@@ -17,13 +17,13 @@ from assignments.load import load_assignment
 from assignments.model import Assignment
 from assignments.plan import Plan, make_plan, sample_cost
 from assignments.usecases import HandedOut, cost_file, hand_out, handouts_of, look_through
+from grader.filling.cells import harmless
 from grader.gradebook import Gradebook, Student, is_begun
 from grader.roster import Enrolled, read_roster
 from vml_course.errors import InputError
 from vml_course.io.files import replacing
 
 Progress = Callable[[int, int], None]
-_FORMULA = ("=", "+", "-", "@", "\t", "\r")  # a spreadsheet would compute what begins like this
 
 
 @dataclass(frozen=True)
@@ -185,7 +185,7 @@ def _write_table(course: Course, assignment: Assignment, students: Iterable[Stud
     path, text = table_file(course, assignment), io.StringIO()
     table = csv.writer(text, lineterminator="\n")
     table.writerow(["pid", "name", "email"])
-    table.writerows([student.pid, _harmless(student.name), _harmless(student.email)] for student in students)
+    table.writerows([student.pid, harmless(student.name), harmless(student.email)] for student in students)
     data = text.getvalue().encode("utf-8-sig")  # the mark tells Excel that it is UTF-8
     if not (path.is_file() and path.read_bytes() == data):
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -193,7 +193,3 @@ def _write_table(course: Course, assignment: Assignment, students: Iterable[Stud
             temporary.touch(mode=0o600)
             temporary.write_bytes(data)
     return path
-
-
-def _harmless(text: str) -> str:
-    return f"'{text}" if text.startswith(_FORMULA) else text

@@ -188,9 +188,9 @@ class Marker:
         return Receipt(self._book.receive(arrived), arrived)
 
     def _marked(self, receipts: Sequence[Receipt]) -> Iterator[Graded]:
-        orders = [self._order(receipt) for receipt in receipts]
-        understood = zip(orders, self._all(understand, orders), strict=True)
-        known = [self._with_key(order, result) for order, result in understood]
+        orders = [self._order_or_reason(receipt) for receipt in receipts]
+        understood = iter(self._all(understand, [order for order in orders if isinstance(order, ReadOrder)]))
+        known = [self._with_key(one, next(understood)) if isinstance(one, ReadOrder) else one for one in orders]
         marked = iter(self._all(mark, [one.order for one in known if isinstance(one, _Known)]))
         for receipt, one in zip(receipts, known, strict=True):
             result = next(marked) if isinstance(one, _Known) else one
@@ -198,6 +198,13 @@ class Marker:
                 yield self._record(receipt, one, result)
             else:
                 yield self._refuse(receipt, str(result))
+
+    def _order_or_reason(self, receipt: Receipt) -> ReadOrder | VmlError:
+        """Return what to read, or why it cannot be: bytes that are gone stop nobody else."""
+        try:
+            return self._order(receipt)
+        except VmlError as error:
+            return error
 
     def _order(self, receipt: Receipt) -> ReadOrder:
         data = self._course.shelf.read(kept_name(receipt.arrived.file_sha256))

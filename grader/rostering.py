@@ -18,10 +18,11 @@ def import_roster(course: Course, file: Path, *, dry_run: bool = False) -> tuple
     FileMissingError, RosterError
     """
     people = read_roster(file)
+    with Gradebook.open(course) as book:
+        arrivals = book.take_in(people, file.name, dry_run=dry_run)
     if not dry_run and has_sample_roster(course) and file.resolve() != course.roster.resolve():
         course.roster.unlink()  # the sample's three students are nobody's
-    with Gradebook.open(course) as book:
-        return book.take_in(people, file.name, dry_run=dry_run)
+    return arrivals
 
 
 def roster_of(course: Course) -> tuple[Student, ...]:

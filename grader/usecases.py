@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import asdict, replace
 
 from assignments.course import Course, add_extension
@@ -12,8 +11,6 @@ from assignments.words import symbol_text
 from grader.adjust import Adjustment
 from grader.gradebook import Gradebook, Row
 from grader.marker import USUAL, Marker, write_class_page
-
-Progress = Callable[[int, int], None]
 
 
 def set_points(course: Course, assignment_id: str, pid: str, adjustment: Adjustment) -> Row:

@@ -6,12 +6,12 @@ import csv
 import io
 from pathlib import Path
 
+from grader.filling.cells import harmless
 from grader.filling.fill import no_grade
 from grader.filling.job import Export, Job, Line
 from grader.filling.numbers import points_text
 
 _COLUMNS = ("email", "sis_id", "login", "name", "pid", "attempt", "earned", "late_share", "points", "out_of")
-_FORMULA = ("=", "+", "-", "@", "\t", "\r")  # a spreadsheet would compute what begins like this
 
 
 def write(job: Job, path: Path) -> tuple[Line, ...]:
@@ -30,7 +30,7 @@ def write(job: Job, path: Path) -> tuple[Line, ...]:
         ids = student.ids or {}
         numbers = (released.earned, released.late_share, released.points, released.out_of)
         earned, late, points, out_of = (points_text(number, comma=comma) for number in numbers)
-        who = (student.email, ids.get("sis_id", ""), ids.get("login", ""), _harmless(student.name), student.pid)
+        who = (student.email, ids.get("sis_id", ""), ids.get("login", ""), harmless(student.name), student.pid)
         table.writerow((*who, released.attempt, earned, late, points, out_of))
         lines.append(Line(student.name, "filled", points, pid=student.pid))
     path.write_bytes(text.getvalue().encode("utf-8-sig"))  # the mark tells Excel that it is UTF-8
@@ -42,7 +42,3 @@ EXPORT = Export(
     ".csv",
     hint="Where a platform asks: students go by e-mail, the column with the grade is points.",
 )
-
-
-def _harmless(text: str) -> str:
-    return f"'{text}" if text.startswith(_FORMULA) else text

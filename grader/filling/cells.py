@@ -17,6 +17,7 @@ _MARKS = (
 )
 _UNMARKED = ("utf-8", "cp1252")
 _DELIMITERS = ",;\t"
+_FORMULA = ("=", "+", "-", "@", "\t", "\r")  # a spreadsheet would compute what begins like this
 _LINE_END = re.compile(r"\r\n|\n|\r")
 
 
@@ -123,3 +124,12 @@ def _said(cell: str) -> str:
     if len(cell) > 1 and cell.startswith('"') and cell.endswith('"'):
         return cell[1:-1].replace('""', '"')
     return cell
+
+
+def harmless(text: str) -> str:
+    """Return a text that a spreadsheet will not compute.
+
+    >>> harmless("=SUM(A1)"), harmless("Ann")
+    ("'=SUM(A1)", 'Ann')
+    """
+    return f"'{text}" if text.startswith(_FORMULA) else text

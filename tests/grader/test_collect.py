@@ -297,6 +297,15 @@ def test_what_nobody_could_grade_stays_on_the_class_page(term: Term) -> None:
     assert f"lab.xlsx ({term.pids[0]})" in page
 
 
+def test_bytes_that_are_gone_from_the_inbox_stop_nobody_else(term: Term) -> None:
+    collect(term.course, SLUG, term.download(**{f"s_90{i + 1}_{i}_lab.xlsx": term.file(i) for i in range(2)}))
+    with Gradebook.open(term.course) as book:
+        gone = next(r for r in book.receipts("collected") if r.arrived.pid == term.pids[0]).arrived.file_sha256
+    (term.course.folder / "inbox" / gone[:2] / gone).unlink()
+    graded = grade_collected(term.course, SLUG)
+    assert {item.pid: item.status for item in graded} == {term.pids[0]: "unreadable", term.pids[1]: "ok"}
+
+
 def test_nothing_graded_cannot_be_released(term: Term) -> None:
     with pytest.raises(NothingGradedError, match="expected grades, got none"):
         release_grades(term.course, SLUG, who="tutor")
