@@ -66,6 +66,7 @@ def find_submission(
     questions: Iterable[Question],
     template: Mapping[str, str] | None = None,
     points: Sequence[str] = (),
+    claims: Claims | None = None,
 ) -> Submission:
     """Return the answers to these questions and the tracking table.
 
@@ -77,13 +78,15 @@ def find_submission(
         Where the template has its answer cells, as `Answers!C7` by question id.
     points : sequence of str, optional
         The assignment's points, with which the names in the table are matched.
+    claims : Claims, optional
+        What a person says that it is; asked of the workbook when not given.
 
     Raises
     ------
     UnreadableError
-        When the workbook carries no variant code.
+        When nobody says what it is, and the workbook carries no variant code.
     """
-    claims = claims_of(book)
+    claims = claims or claims_of(book)
     labels = _labels(book)
     answers = {q.id: _answer(book, labels, q, (template or {}).get(q.id, "")) for q in questions}
     table = read_table(book, points)
