@@ -30,12 +30,13 @@ _Labels = dict[str, list[tuple[Sheet, Place]]]
 
 @dataclass(frozen=True)
 class Claims:
-    """What a workbook says it is: the variant's code, the assignment's id and version, the signature."""
+    """What a workbook says it is: its variant's code, assignment and version, the signature, what it is for."""
 
     code: str
     assignment_id: str
     signature: str = ""
     version: str = ""
+    purpose: str = ""
 
 
 def claims_of(book: Book) -> Claims:
@@ -51,7 +52,9 @@ def claims_of(book: Book) -> Claims:
     code, assignment = said.get("variant_code", ""), said.get("assignment", "")
     if not code or not assignment:
         raise UnreadableError(book.name, "a workbook without our variant code", OUR_TEMPLATE)
-    return Claims(code, assignment, said.get("signature", ""), said.get("assignment_version", ""))
+    return Claims(
+        code, assignment, said.get("signature", ""), said.get("assignment_version", ""), said.get("purpose", "")
+    )
 
 
 def _pairs(sheet: Sheet) -> Iterator[tuple[str, str]]:

@@ -237,6 +237,31 @@ def test_an_unknown_pseudonym_is_told(book) -> None:
         book.set_status("zz", "dropped")
 
 
+def test_a_list_of_one_late_student_does_not_list_everybody_else(tmp_path: Path, capsys) -> None:
+    course, file = str(tmp_path / "c"), tmp_path / "list.csv"
+    new_course(Path(course)).roster.unlink()
+    file.write_text("name,email\n" + "".join(f"S{i},s{i}@x.org\n" for i in range(4)), encoding="utf-8")
+    assert run(["roster", "import", str(file), "--course", course]) == 0
+    file.write_text("name,email\nLate,late@x.org\n", encoding="utf-8")
+    capsys.readouterr()
+    assert run(["roster", "import", str(file), "--course", course]) == 0
+    said = capsys.readouterr().out
+    assert "1 new, 0 known, 0 linked, 4 not listed." in said
+    assert "s0@x.org" not in said
+
+
+def test_dropped_students_are_marked_where_grades_are_shown(tmp_path: Path, capsys) -> None:
+    course = new_course(tmp_path / "c")
+    with Gradebook.open(course) as book:
+        pid = book.students_from_roster(course.roster)[1].pid
+    assert run(["roster", "drop", pid, "--course", str(course.folder)]) == 0
+    capsys.readouterr()
+    assert run(["gradebook", "show", "--course", str(course.folder)]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert [line.endswith("dropped") for line in lines if line.startswith(pid)] == [True]
+    assert sum(line.endswith("dropped") for line in lines) == 1
+
+
 def test_the_commands_take_in_show_drop_and_forget(tmp_path: Path, capsys) -> None:
     course, file = str(tmp_path / "c"), tmp_path / "canvas.csv"
     new_course(Path(course)).roster.unlink()
