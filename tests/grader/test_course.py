@@ -17,12 +17,11 @@ from assignments.course import Course, new_course
 from assignments.load import load_assignment
 from assignments.variants import signature_of
 from assignments.workbook import fill_workbook, write_workbook
-from grader.errors import NoKeyError, RosterError, UnknownVariantError
+from grader.errors import NoKeyError, UnknownVariantError
 from grader.form import check_workbook
 from grader.gradebook import Gradebook, Student
 from grader.grading import Wanted, grade_files
 from grader.model import Outcome
-from grader.roster import read_roster
 from vml_course.cli import run
 from vml_course.errors import FileMissingError
 
@@ -206,53 +205,6 @@ def test_two_graders_at_once_lose_nothing(room):
     with Gradebook.open(room.course) as book:
         assert [row.attempt for row in book.rows()] == [1, 1, 1]
         assert book.is_whole()
-
-
-# ---------------------------------------------------------------- roster
-
-
-@pytest.mark.parametrize(
-    "text",
-    [
-        "name,email\nAna,a@x\nBen,b@x\n",
-        "\ufeffEmail;Name\na@x;Ana\nb@x;Ben\n",
-        "Name\tEmail\tid\nAna\ta@x\t1\n\nBen\tb@x\t2\n",
-    ],
-)
-def test_rosters_of_many_shapes_are_read(tmp_path, text):
-    (tmp_path / "r.csv").write_text(text, encoding="utf-8")
-    assert [(s.name, s.email) for s in read_roster(tmp_path / "r.csv")] == [("Ana", "a@x"), ("Ben", "b@x")]
-
-
-def test_a_roster_in_an_old_encoding_is_read(tmp_path):
-    (tmp_path / "r.csv").write_bytes("name,email\nJosé,j@x\n".encode("cp1252"))
-    assert read_roster(tmp_path / "r.csv")[0].name == "José"
-
-
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [
-        ("", "empty"),
-        ("a,b\n1,2\n", "name,email"),
-        ("name,email\nA,x@y\nB,X@y\n", "twice"),
-        ("name,email\n", "at least one student"),
-        ("name,email\nA,x@y\n,z@y\n", "line 3: expected a name"),
-        ("name,email\nDoe, Jane,x@y\n", "line 2: expected as many cells .* in quotes"),
-        ("name,email,group\nDoe, Jane,x@y\n", "line 2: expected an e-mail address"),
-    ],
-)
-def test_a_roster_that_is_none_is_told(tmp_path, text, words):
-    (tmp_path / "r.csv").write_text(text)
-    with pytest.raises(RosterError, match=words):
-        read_roster(tmp_path / "r.csv")
-
-
-def test_a_missing_roster_is_told(tmp_path):
-    with pytest.raises(FileMissingError, match="name,email"):
-        read_roster(tmp_path / "r.csv")
-
-
-# ---------------------------------------------------------------- grading a batch
 
 
 def test_a_batch_is_graded_recorded_and_explained(room):

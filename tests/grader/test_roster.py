@@ -11,10 +11,10 @@ from hypothesis import strategies as st
 from assignments.course import new_course
 from grader.errors import RosterError
 from grader.gradebook import Gradebook
-from grader.roster import Enrolled, decoded, parse_roster
+from grader.roster import Enrolled, decoded, parse_roster, read_roster
 from grader.rostering import import_roster, roster_of
 from vml_course.cli import run
-from vml_course.errors import InputError, VmlError
+from vml_course.errors import FileMissingError, InputError, VmlError
 
 CANVAS = """Student,ID,SIS User ID,SIS Login ID,Section,Collision lab (4711)
     Points Possible,,,,,10
@@ -296,3 +296,50 @@ def test_an_extension_is_kept_in_the_settings_and_in_the_chain(tmp_path: Path, c
     assert run(["gradebook", "verify", "--course", str(tmp_path / "c")]) == 0
     assert "Chain of events: 4 events, unbroken." in capsys.readouterr().out
     assert run(["gradebook", "extend", "zz", "--hours", "1", "--reason", "x", "--course", str(tmp_path / "c")]) == 2
+
+
+# ---------------------------------------------------------------- the course's own file
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "name,email\nAna,a@x\nBen,b@x\n",
+        "\ufeffEmail;Name\na@x;Ana\nb@x;Ben\n",
+        "Name\tEmail\tid\nAna\ta@x\t1\n\nBen\tb@x\t2\n",
+    ],
+)
+def test_rosters_of_many_shapes_are_read(tmp_path, text):
+    (tmp_path / "r.csv").write_text(text, encoding="utf-8")
+    assert [(s.name, s.email) for s in read_roster(tmp_path / "r.csv")] == [("Ana", "a@x"), ("Ben", "b@x")]
+
+
+def test_a_roster_in_an_old_encoding_is_read(tmp_path):
+    (tmp_path / "r.csv").write_bytes("name,email\nJosé,j@x\n".encode("cp1252"))
+    assert read_roster(tmp_path / "r.csv")[0].name == "José"
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("", "empty"),
+        ("a,b\n1,2\n", "name,email"),
+        ("name,email\nA,x@y\nB,X@y\n", "twice"),
+        ("name,email\n", "at least one student"),
+        ("name,email\nA,x@y\n,z@y\n", "line 3: expected a name"),
+        ("name,email\nDoe, Jane,x@y\n", "line 2: expected as many cells .* in quotes"),
+        ("name,email,group\nDoe, Jane,x@y\n", "line 2: expected an e-mail address"),
+    ],
+)
+def test_a_roster_that_is_none_is_told(tmp_path, text, words):
+    (tmp_path / "r.csv").write_text(text)
+    with pytest.raises(RosterError, match=words):
+        read_roster(tmp_path / "r.csv")
+
+
+def test_a_missing_roster_is_told(tmp_path):
+    with pytest.raises(FileMissingError, match="name,email"):
+        read_roster(tmp_path / "r.csv")
+
+
+# ---------------------------------------------------------------- grading a batch
