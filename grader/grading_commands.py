@@ -150,6 +150,10 @@ def _print_graded(graded: Iterable[Graded], place: str) -> None:
         typer.echo(line)
     if not graded:
         typer.echo("Nothing new was collected. Name workbooks, or run vml collect first.")
+        return
+    counts = Counter(item.status for item in graded)
+    statuses = ", ".join(f"{number} {status}" for status, number in counts.most_common())
+    typer.echo(f"{len(graded)} file{'s' if len(graded) > 1 else ''}: {statuses}.")
     for assignment_id in dict.fromkeys(item.assignment_id for item in graded if item.assignment_id):
         typer.echo(f"Class page: {place}/feedback/{assignment_id}/class.html")
 

@@ -273,6 +273,8 @@ def test_the_commands_collect_grade_and_release(term, capsys) -> None:
     assert [item["status"] for item in json.loads(capsys.readouterr().out)] == ["ok", "ok"]
     assert run(["grade", *at]) == 0
     assert "Nothing new was collected." in capsys.readouterr().out
+    assert run(["grade", *at, "--again", SLUG]) == 0
+    assert "2 files: 2 ok." in capsys.readouterr().out
     assert run(["release", SLUG, *at]) == 0
     assert "2 grades, 2 of them changed." in capsys.readouterr().out
     assert run(["collect", SLUG, str(term.download(**{"x.xlsx": b"no"})), *at]) == 1
