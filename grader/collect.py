@@ -48,6 +48,8 @@ class Collected:
         Which platform's name it has, "" when none's.
     message : str
         Why, in one line.
+    before : str
+        Of a duplicate: what became of the same bytes when they came first.
     """
 
     name: str
@@ -55,6 +57,13 @@ class Collected:
     pid: str = ""
     platform: str = ""
     message: str = ""
+    before: str = ""
+
+    @property
+    def needs_attention(self) -> bool:
+        """Whether a person has to say something, now or since it came first."""
+        status = self.before or self.status
+        return status not in {"matched", "collected", "graded"}
 
 
 @dataclass(frozen=True)
@@ -121,7 +130,8 @@ class _Desk:
         self._course, self._assignment, self._book = course, assignment_id, book
         self._platform, self._received, self._dry_run = platform, received, dry_run
         self._known = _by_identity(book.students())
-        self._seen: set[str] = set()
+        self._kinds = {(kind, pid): value for (kind, value), pid in self._known.items()}
+        self._seen: dict[tuple[str, str], str] = {}
 
     def take(self, file: _File) -> Collected:
         """Take in one file."""
@@ -132,17 +142,20 @@ class _Desk:
                 file.name, "too large", "", platform, f"More than {LARGEST_BYTES // 2**20} MB: no workbook."
             )
         sha256 = hashlib.sha256(file.data).hexdigest()
-        if sha256 in self._seen or self._book.knows_file(sha256, self._assignment):
-            return Collected(file.name, "duplicate", "", platform, "The same bytes came in before.")
-        self._seen.add(sha256)
         by_platform = self._known.get((named.kind, named.value.casefold()), "") if named else ""
-        result = self._whose(file, by_platform, platform)
+        before = self._seen.get((sha256, by_platform)) or self._book.knows_file(sha256, self._assignment, by_platform)
+        if before:
+            message = f"The same bytes came in before ({before})."
+            return Collected(file.name, "duplicate", by_platform, platform, message, before)
+        result = self._whose(file, by_platform, named)
+        self._seen[sha256, by_platform] = result.status
         if not self._dry_run:
             keep(self._course.shelf, file.data)
             self._book.receive(self._arrived(result, sha256, named))
         return result
 
-    def _whose(self, file: _File, by_platform: str, platform: str) -> Collected:
+    def _whose(self, file: _File, by_platform: str, named: Named | None) -> Collected:
+        platform = named.platform if named else ""
         try:
             by_code = self._by_code(file)
         except VmlError as error:
@@ -151,6 +164,11 @@ class _Desk:
         if by_platform and by_platform != by_code:
             message = f"The workbook is {by_code}'s, the platform says {by_platform}."
             return Collected(file.name, "conflict", by_platform, platform, message)
+        if named and not by_platform and (named.kind, by_code) in self._kinds:
+            message = (
+                f"The workbook is {by_code}'s, whose {named.kind} is another than {named.value}: who handed it in?"
+            )
+            return Collected(file.name, "conflict", "", platform, message)
         return Collected(file.name, "matched", by_code, platform)
 
     def _by_code(self, file: _File) -> str:

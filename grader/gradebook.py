@@ -250,10 +250,10 @@ class Gradebook:
         with self._reader.connect() as connection:
             return receipt_of(connection, assignment_id, pid, attempt)
 
-    def knows_file(self, sha256: str, assignment_id: str) -> bool:
-        """Tell whether these bytes came in before."""
+    def knows_file(self, sha256: str, assignment_id: str, pid: str = "") -> str:
+        """Return what became of these bytes when they came in before, from this student if named; "" if never."""
         with self._reader.connect() as connection:
-            return knows_file(connection, sha256, assignment_id)
+            return knows_file(connection, sha256, assignment_id, pid)
 
     # ------------------------------------------------------------ runs
 

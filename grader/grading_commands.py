@@ -62,12 +62,12 @@ def collect(
                 typer.echo(f"{'':10}{item.message}")
         counts = Counter(item.status for item in found)
         typer.echo(", ".join(f"{number} {status}" for status, number in counts.items()) + ".")
-        if counts.keys() & {"unmatched", "unreadable"}:
+        if counts.keys() & {"unmatched", "unreadable", "conflict"}:
             typer.echo(
                 f"Say whose a workbook is: vml grade FILE --whose STUDENT --assignment {assignment} --course {course}"
             )
         typer.echo("Nothing was kept (--dry-run)." if dry_run else f"Next: vml grade --course {course}")
-    if any(item.status not in {"matched", "duplicate"} for item in found):
+    if any(item.needs_attention for item in found):
         raise typer.Exit(1)
 
 

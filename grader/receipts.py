@@ -182,11 +182,16 @@ def receipt_of(connection: Connection, assignment: str, pid: str, attempt: int) 
     return None if row is None else _receipt(row)
 
 
-def knows_file(connection: Connection, sha256: str, assignment: str) -> bool:
-    """Tell whether these bytes came in before."""
+def knows_file(connection: Connection, sha256: str, assignment: str, pid: str = "") -> str:
+    """Return what became of these bytes when they came in before, from one student where one is named; "" if never."""
     table = tables.receipt
     same = (table.c.file_sha256 == sha256) & (table.c.assignment == assignment)
-    return connection.scalar(select(table.c.id).where(same)) is not None
+    if pid:
+        same &= tables.student.c.pid == pid
+    wanted = select(table.c.status).select_from(
+        table.outerjoin(tables.student, table.c.student_id == tables.student.c.id)
+    )
+    return str(connection.scalar(wanted.where(same).order_by(table.c.id.desc()).limit(1)) or "")
 
 
 def _receipt(row: object) -> Receipt:

@@ -65,6 +65,39 @@ def test_where_platform_and_workbook_disagree_a_person_decides(term) -> None:
     assert grade_collected(term.course, SLUG) == []
 
 
+def test_a_copy_that_comes_first_does_not_hide_the_file_of_its_owner(term) -> None:
+    download = term.download(**{"a_902_1_lab.xlsx": term.file(0), "b_901_2_lab.xlsx": term.file(0)})
+    copy, own = collect(term.course, SLUG, download)
+    assert (copy.status, copy.pid) == ("conflict", term.pids[1])
+    assert (own.status, own.pid) == ("matched", term.pids[0])
+    assert [item.pid for item in grade_collected(term.course, SLUG)] == [term.pids[0]]
+
+
+def test_a_copy_that_comes_second_is_said_to_be_somebody_elses(term) -> None:
+    download = term.download(**{"a_901_1_lab.xlsx": term.file(0), "b_902_2_lab.xlsx": term.file(0)})
+    _, copy = collect(term.course, SLUG, download)
+    assert (copy.status, copy.pid) == ("conflict", term.pids[1])
+
+
+def test_somebody_whom_the_class_list_does_not_know_hands_in_for_nobody(term) -> None:
+    (found,) = collect(term.course, SLUG, term.download(**{"ghost_999_1_lab.xlsx": term.file(0)}))
+    assert (found.status, found.pid) == ("conflict", "")
+    assert found.message == f"The workbook is {term.pids[0]}'s, whose canvas_id is another than 999: who handed it in?"
+    assert grade_collected(term.course, SLUG) == []
+
+
+def test_where_the_class_list_has_no_numbers_of_the_platform_the_workbook_says_it(term) -> None:
+    (found,) = collect(term.course, SLUG, term.download(**{"Ann_4711_assignsubmission_file/lab.xlsx": term.file(0)}))
+    assert (found.status, found.pid, found.platform) == ("matched", term.pids[0], "moodle")
+
+
+def test_what_waited_for_a_person_waits_when_it_comes_again(term, capsys) -> None:
+    download, at = term.download(**{"s_902_1_lab.xlsx": term.file(0)}), ["--course", str(term.course.folder)]
+    assert run(["collect", SLUG, str(download), *at]) == 1
+    assert run(["collect", SLUG, str(download), *at]) == 1
+    assert "The same bytes came in before (conflict)." in capsys.readouterr().out
+
+
 def test_the_workbook_alone_says_whose_it_is(term) -> None:
     folder = term.course.folder / "unpacked"
     (folder / "deep").mkdir(parents=True)
