@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 from vml_course.kinetics.clear_frames import Seen
-from vml_course.kinetics.joint import Held, Problem, Watched, fit, residuals, slopes
+from vml_course.kinetics.joint import Held, Misfit, Problem, Watched, fit, residuals
 from vml_course.kinetics.paths import flying, sliding, swinging, turning
 from vml_course.kinetics.pendulum import swung
 
@@ -35,7 +35,7 @@ def test_complex_steps_are_the_derivatives_of_the_residuals(name, shift):
     seen = Seen(TIME, np.random.default_rng(10).normal(size=(12, 2)), np.full(12, 0.1), TIME > 0.004)
     problem = Problem(start, {"L": 0.6}, (Watched("ball", seen, path),), (Held(lambda u: u["t"] - 0.01 * u["L"], 0.5),))
     x = np.array(list(start.values()))
-    found, row = slopes(problem, x), problem.rows(x)
+    found, row = Misfit(problem).slopes(x), problem.rows(x)
     for j in range(row.shape[1]):
         aside = np.zeros_like(row)
         aside[0, j] = 1e-7 * max(abs(row[0, j]), 0.01)
