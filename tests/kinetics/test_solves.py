@@ -289,6 +289,32 @@ def test_a_ballistic_pendulum_gives_i_and_v1_by_momentum_and_by_energy(turn):
     assert found.notes == ()
 
 
+def stuck(motion, d=0.7):
+    """The same clip with the pellet tracked on: it sits straight below the pivot, and turns with the pendulum."""
+    xy, bob, pellet = motion.xy_m.copy(), motion.points.index("bob"), motion.points.index("pellet")
+    xy[AFTER, pellet] = d / 0.8 * xy[AFTER, bob]
+    return replace(motion, xy_m=xy)
+
+
+def test_the_pellet_tells_when_where_the_slow_pendulum_is_lost_in_a_hands_noise():
+    rng = np.random.default_rng(4)
+    for _ in range(8):
+        clicked = noisy(stuck(pendulum()), rng, 1.0)
+        found = impact_model("ballistic-pendulum").solve(clicked, PENDULUM_GIVEN, PENDULUM)
+        for symbol, true in (("I", 0.6), ("v1", 15.0)):
+            assert found.value(symbol) == pytest.approx(true, abs=4 * found.estimates[symbol].sd)
+
+
+def test_a_pellet_that_is_seen_on_changes_nothing_in_a_sharp_clip():
+    away, on = (
+        impact_model("ballistic-pendulum").solve(motion, PENDULUM_GIVEN, PENDULUM)
+        for motion in (pendulum(), stuck(pendulum()))
+    )
+    assert on.frame_before == away.frame_before
+    for symbol in ("I", "v1"):
+        assert on.value(symbol) == pytest.approx(away.value(symbol), rel=1e-6)
+
+
 def test_roads_that_disagree_are_told():
     found = impact_model("ballistic-pendulum").solve(pendulum(), {**PENDULUM_GIVEN, "m": 0.06}, PENDULUM)
     assert "by momentum and" in found.notes[-1]
