@@ -229,13 +229,44 @@ def test_the_autograder_runs_from_an_empty_folder(packed, right, tmp_path) -> No
     assert results["score"] == 0
 
 
+NOT_NEEDED = (
+    "cv2", "numba", "llvmlite", "av", "pandas", "sqlalchemy", "alembic", "jinja2", "typer", "rich", "fsspec", "dask",
+    "distributed", "PIL",
+)  # fmt: skip
+GRADE_WITHOUT = """
+import sys
+sys.modules.update(dict.fromkeys(sys.argv[2:]))  # None: importing it fails
+from assignments.textbook import textbook_of
+from grader.autograder.run import main
+from vml_course.kinetics.models import impact_model
+from vml_course.synth.scene import impact_scene_names, scene_class
+for name in impact_scene_names():
+    textbook_of(name), impact_model(scene_class(name).model)
+main(sys.argv[1:2])
+"""
+
+
+def test_grading_imports_nothing_that_draws_films_or_keeps_a_gradebook(packed, right, tmp_path) -> None:
+    """In a fresh interpreter that refuses them: of every kind of impact what is needed, and one submission graded."""
+    unpack(packed, tmp_path)
+    (tmp_path / "submission" / "lab.xlsx").write_bytes(right)
+    (tmp_path / "submission_metadata.json").write_text(json.dumps(metadata("ana@example.org")), encoding="utf-8")
+    environment = {**os.environ, "PYTHONPATH": str(tmp_path / "source" / "lib")}
+    command = [sys.executable, "-c", GRADE_WITHOUT, str(tmp_path), *NOT_NEEDED]
+    done = subprocess.run(command, env=environment, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    results = json.loads((tmp_path / "results" / "results.json").read_text(encoding="utf-8"))
+    assert results["score"] == TOTAL
+    assert not {"opencv-python-headless", "numba", "llvmlite", "av"} & distributions(NEEDED)
+
+
 @pytest.mark.accuracy
 def test_the_autograder_installs_without_a_network_and_runs(autograder_course, right, tmp_path) -> None:
     """The real thing: wheels are fetched, packed, installed into a Python that has nothing, and used."""
     prepared = os.environ.get("VML_WHEELS")
     path, root = tmp_path / "autograder.zip", tmp_path / "autograder"
     write(job_of(autograder_course, wheels=Path(prepared) if prepared else None), path)
-    assert path.stat().st_size < 250e6
+    assert path.stat().st_size < 70e6
     unpack(path, root)
     offline = {"PIP_NO_INDEX": "1", "http_proxy": "http://127.0.0.1:9", "https_proxy": "http://127.0.0.1:9"}
     done = subprocess.run(
