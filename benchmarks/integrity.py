@@ -14,13 +14,14 @@ student's code, or another one's content.
 from __future__ import annotations
 
 import argparse
+import hashlib
 import shutil
 import subprocess
 import tempfile
 import time
 from collections import Counter
 from dataclasses import dataclass
-from functools import cache
+from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
@@ -33,7 +34,6 @@ from grader.integrity import LINKS, HandedIn, compare
 from grader.read import ReadRequest, claims_of, find_submission, read_workbook
 from vml_course.executors import each_done, open_executor
 
-SECRET = bytes(range(7, 39))
 COPIES = 5  # of each kind, in a copied class
 
 
@@ -47,10 +47,15 @@ class Order:
     is_copied: bool = False
 
 
-@cache
-def desks(name, students):
+def secret_of(seed):
+    """Return the secret of a course: every class has variants of its own."""
+    return hashlib.sha256(f"class {seed}".encode()).digest()
+
+
+@lru_cache(maxsize=1)
+def desks(name, students, seed):
     assignment = load_assignment(name)
-    return [desk_of(assignment, SECRET, f"s{k}") for k in range(students)]
+    return [desk_of(assignment, secret_of(seed), f"s{k}") for k in range(students)]
 
 
 def handed_in(desk, pid, columns):
@@ -88,7 +93,8 @@ KINDS = {
 
 def run(order):
     """Return what was found in one class: (kind of copy or "", method) by number, and the processor's seconds."""
-    rng, all_desks = np.random.default_rng([order.seed, order.is_copied]), desks(order.assignment, order.students)
+    rng = np.random.default_rng([order.seed, order.is_copied])
+    all_desks = desks(order.assignment, order.students, order.seed)
     tables = [own_table(desk, rng) for desk in all_desks]
     kind_of = {}
     if order.is_copied:
@@ -110,11 +116,11 @@ def run(order):
     return told, cpu_s
 
 
-def files_of(name, students, folder):
+def files_of(name, students, seed, folder):
     """Write and fill the workbooks of some honest students; return their codes, in the order of the files."""
     assignment, rng, codes = load_assignment(name), np.random.default_rng(9), []
-    for number, desk in enumerate(desks(name, students)):
-        variant = draw_variant(assignment, SECRET, f"s{number}")
+    for number, desk in enumerate(desks(name, students, seed)):
+        variant = draw_variant(assignment, secret_of(seed), f"s{number}")
         empty, filled = folder / "empty.xlsx", folder / f"{number:04}.xlsx"
         write_workbook(empty, assignment, variant, given_values(assignment, variant))
         columns = {name: column.tolist() for name, column in own_table(desk, rng).items()}
@@ -136,12 +142,12 @@ def saved_by_libreoffice(folder):
         return len([shutil.move(path, folder / path.name) for path in Path(out).glob("*.xlsx")])
 
 
-def print_files(name, students):
+def print_files(name, students, seed):
     """Print how many honest workbooks have a sign that lies in the file."""
     assignment = load_assignment(name)
     with tempfile.TemporaryDirectory() as temporary:
         folder = Path(temporary)
-        codes, resaved = files_of(name, students, folder), saved_by_libreoffice(folder)
+        codes, resaved = files_of(name, students, seed, folder), saved_by_libreoffice(folder)
         books = [read_workbook(ReadRequest(path.name, path.read_bytes())) for path in sorted(folder.glob("*.xlsx"))]
     handed = [find_submission(book, assignment.questions) for book in books]
     linked = sum(bool(set(one.flags) & set(LINKS)) for one in handed)
@@ -196,7 +202,7 @@ def main() -> None:
     limit = min(1.0, 3 / wanted.classes)  # the rule of three
     print(f"({dict(suspected)}). Where there was none, 95 % sure: in fewer than {limit:.1%} of classes.")
     if wanted.files:
-        print_files(wanted.assignment, wanted.files)
+        print_files(wanted.assignment, wanted.files, wanted.seed)
     cpu_s = print_copied(Order(wanted.assignment, wanted.students, wanted.seed, is_copied=True))
     print(
         f"\nComparing {wanted.students} tables: {np.median(seconds):.1f} s of one processor, with copies {cpu_s:.1f} s."
