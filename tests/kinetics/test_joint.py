@@ -43,6 +43,17 @@ def test_complex_steps_are_the_derivatives_of_the_residuals(name, shift):
         np.testing.assert_allclose(found[:, j], slope, atol=2e-5 * max(1.0, np.abs(slope).max()))
 
 
+def test_a_pendulum_that_hangs_stays_and_a_fit_that_went_astray_ends():
+    one, time = np.ones((1, 1)), np.linspace(-0.3, 0.5, 9)[None]
+    hangs = swung(time, time[0] > 0, 0.7 * one, (0 * one, 0 * one), (0 * one, 0 * one, 0 * one))
+    assert hangs == pytest.approx(0.7, abs=1e-15)
+    for rate in (np.nan, np.inf, 1e12):
+        with np.errstate(all="ignore"):
+            astray = swung(time, time[0] > 0, one, (0 * one, rate * one), (30 * one, 0 * one, 0 * one))
+        assert astray.shape == time.shape
+        assert not np.isclose(astray[0, -1], 1.0)
+
+
 @settings(deadline=None, max_examples=30)
 @given(
     start=st.floats(-3, 3),

@@ -8,7 +8,7 @@ Taylor series of the solution has one: with c_k, s_k the coefficients of cosine 
     (k+1)(k+2) a_(k+2) = q [k=0] - p c_k,   (k+1) c_(k+1) = -sum (j+1) a_(j+1) s_(k-j),   s_(k+1) alike with +c.
 
 One series of sixteen terms serves as long as its last terms are small, then the next one begins (Jorba & Zou,
-Experimental Mathematics 14 (2005) 99): good to 1e-9 rad over a whole turn. Everything broadcasts and is analytic, so
+Experimental Mathematics 14 (2005) 99): good to 5e-9 rad over whole turns. Everything broadcasts and is analytic, so
 that complex steps give derivatives (see `joint.py`).
 """
 
