@@ -114,17 +114,20 @@ class BallisticPendulum:
 
 
 def _frames(motion: Motion, options: ImpactOptions) -> ClearFrames:
-    """Find the impact by the pellet, which stops at once; by the pendulum, which starts slowly, where that shows none.
+    """Find the impact by the pendulum; where it starts too slowly for its noise, by the pellet, which stops at once.
 
-    A pellet need not be seen any more once it is inside.
+    The pellet comes second: it need not be seen any more once it is inside, and a tracker may lose it there and jump.
     """
     is_seen = np.asarray(np.isfinite(motion.of(options.striker)).all(axis=1))
     window = options.window_s, max(options.window_s, RISE_S)
     gravity = np.array(options.gravity_xy_m_s2) if options.flight == "always" else None
     try:
-        return frames_about(motion, options.struck, is_seen, (gravity, None), window)
-    except NoImpactError:
         return frames_about(motion, options.striker, is_seen, (None, None), window)
+    except NoImpactError as not_by_pendulum:
+        try:
+            return frames_about(motion, options.struck, is_seen, (gravity, None), window)
+        except NoImpactError:
+            raise not_by_pendulum from None
 
 
 def _problem(motion: Motion, known: Mapping[str, float], options: ImpactOptions, frames: ClearFrames) -> Problem:
