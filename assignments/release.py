@@ -12,10 +12,14 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 
+import numpy as np
+from numpy.typing import NDArray
+
 from assignments.errors import NotMeasuredError, NoVariantError
 from assignments.fairness import allowance, conclusions, fair_variant, hold_fair, precision, solve
 from assignments.film import film
 from assignments.handout import FirstPicture, render_handout, write_handout
+from assignments.impact_frame import ImpactFrame, cut_for, index_of
 from assignments.key import answer_key, stick_px, true_value
 from assignments.model import AnswerKey, Assignment, Variant
 from assignments.variants import given_values
@@ -56,6 +60,8 @@ class Release:
     ----------
     files : mapping of str to bytes
         What the student gets, by name.
+    impact : ImpactFrame or None
+        The picture of the impact for later pages; no student gets it.
     cpu_s : mapping of str to float
         Seconds of processor time by stage: draw, film, track, solve, write. Rejected variants are in it.
     """
@@ -65,6 +71,7 @@ class Release:
     refused: tuple[str, ...]
     files: Mapping[str, bytes] = field(default_factory=dict)
     cpu_s: Mapping[str, float] = field(default_factory=dict)
+    impact: ImpactFrame | None = None
 
 
 def release(order: Order) -> Release:
@@ -99,8 +106,8 @@ def make(order: Order, folder: Path) -> Release:
             continue
         key = answer_key(order.assignment, fair.variant, made.truth, measured, sha256_of(made.video))
         with clock.running("write"):
-            files = _write(order, fair.variant, made, folder / OUT)
-        return Release(fair.variant, key, tuple(refused), files, clock.cpu_s)
+            files, impact = _write(order, fair.variant, made, key, folder / OUT)
+        return Release(fair.variant, key, tuple(refused), files, clock.cpu_s, impact)
     raise NoVariantError(order.assignment.id, TRIES, refused[-3:])
 
 
@@ -155,15 +162,25 @@ def _hold(assignment: Assignment, truth: Truth, measured: ImpactSolution) -> Non
     hold_fair(assignment, precision(assignment, truth, measured))
 
 
-def _write(order: Order, variant: Variant, made: MadeVideo, out: Path) -> dict[str, bytes]:
+def _pictures(video: Path, key: AnswerKey) -> tuple[NDArray[np.uint8], ImpactFrame | None]:
+    """Return the first picture, blue, green, red, and that of the impact, in one pass."""
+    index = index_of(key) or 0
+    read = read_pictures(video, 0, index, max(index, 1))
+    pictures = {frame.index: bgr_of(frame.picture) for frame in read}
+    return pictures[0], cut_for(key, pictures[index], index)
+
+
+def _write(
+    order: Order, variant: Variant, made: MadeVideo, key: AnswerKey, out: Path
+) -> tuple[dict[str, bytes], ImpactFrame | None]:
     assignment, truth = order.assignment, made.truth
     given = given_values(assignment, variant)
-    first = next(iter(read_pictures(made.video, end=0)))
+    still, impact = _pictures(made.video, key)
     points_px = {point: truth.point_px(point) for point in assignment.points}
-    picture = FirstPicture(bgr_of(first.picture), points_px, stick_px(truth, assignment))
+    picture = FirstPicture(still, points_px, stick_px(truth, assignment))
     html = render_handout(assignment, variant, given, picture, video=made.video.name, due=order.due)
     out.mkdir()
     write_workbook(out / WORKBOOK, assignment, variant, given)
     write_handout(out / HANDOUT, html)
     made.video.rename(out / made.video.name)
-    return {path.name: path.read_bytes() for path in sorted(out.iterdir())}
+    return {path.name: path.read_bytes() for path in sorted(out.iterdir())}, impact

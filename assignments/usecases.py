@@ -1,6 +1,7 @@
 """Hand out an assignment: a folder and a zip for every student, a key for the instructor.
 
-A student's key is kept first, then the folder takes its name, then the zip: it says that the student has everything.
+A student's key is kept first, and the picture of the impact for later pages; then the folder takes its name, then the
+zip: it says that the student has everything.
 So a run that was killed goes on where it stopped, and a second run changes nothing.
 """
 
@@ -16,6 +17,7 @@ from typing import Literal
 from assignments.costs import Cost, cost_of, keep_cost
 from assignments.course import Course
 from assignments.handouts import Handouts, check_pseudonyms
+from assignments.impact_frame import keep_frame
 from assignments.model import AnswerKey, Assignment, Variant
 from assignments.release import Order, Release, release
 from vml_course.errors import VmlError
@@ -170,6 +172,8 @@ class _Desk:
         try:
             released = future.result()
             self.keep(released.variant, released.key)
+            if released.impact is not None:
+                keep_frame(self.handouts.shelf, released.key, released.impact)
             self.handouts.put(student, released.files)
         except VmlError as error:
             return HandedOut(student, place, "failed", reason=str(error))

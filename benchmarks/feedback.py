@@ -2,8 +2,9 @@
 
     python benchmarks/feedback.py [--assignment soccer-kick] [--repeats 30] [--students 500]
 
-The variant is released as for a student: simulated, rendered, tracked, solved; its own video gives the picture of the
-impact. The workbook is filled with right answers but for e, which is turned over, and with the true trajectory.
+The variant is released as for a student: simulated, rendered, tracked, solved, with the picture of the impact cut from
+its own video and kept. Courses that were handed out before pictures were kept decode each video once, which is told
+beside it. The workbook is filled with right answers but for e, which is turned over, and with the true trajectory.
 CPU seconds of this process. Reading happens in a process of its own: what it costs there is measured here, and what
 handing the file over and the cells back costs here is added.
 """
@@ -15,6 +16,7 @@ import tempfile
 import time
 from pathlib import Path
 
+from assignments.impact_frame import KEPT, keep_frame
 from assignments.load import load_assignment
 from assignments.release import WORKBOOK, Order, release
 from assignments.words import tracking_columns
@@ -54,7 +56,9 @@ def hand_out(folder, made):
     home.mkdir(parents=True)
     for name, data in made.files.items():
         (home / name).write_bytes(data)
-    return FolderShelf(folder)
+    shelf = FolderShelf(folder)
+    keep_frame(shelf, made.key, made.impact)
+    return shelf
 
 
 def filled(folder, made, assignment):
@@ -79,8 +83,7 @@ def measured(shelf, request, key, assignment, repeats):
     book = read_workbook(request)
     submission = find_submission(book, assignment.questions)
     result = grade(submission, key, assignment)
-    first = cpu_s(lambda: impact_frame(shelf, key), 3)
-    impact_frame(shelf, key)
+    decoded = cpu_s(lambda: forgotten(shelf, key), 3)
     report = Report(assignment, submission, key, result, frame=impact_frame(shelf, key))
     return {
         "report": report,
@@ -89,11 +92,17 @@ def measured(shelf, request, key, assignment, repeats):
         "read": cpu_s(lambda: read_workbook(request), repeats),
         "hand over": cpu_s(lambda: read_isolated(request), repeats),
         "grade": cpu_s(lambda: grade(find_submission(book, assignment.questions), key, assignment), repeats),
-        "frame decoded": first,
+        "frame decoded": decoded,
         "frame kept": cpu_s(lambda: impact_frame(shelf, key), repeats),
         "page": cpu_s(lambda: feedback_page(report), repeats),
         "copy": cpu_s(lambda: annotated_workbook(report, book), repeats),
     }
+
+
+def forgotten(shelf, key):
+    """Ask for the picture where none was kept; it is kept then."""
+    (shelf.folder / KEPT / key.assignment_id / f"{key.student}.json").unlink()
+    assert impact_frame(shelf, key) is not None
 
 
 def cpu_s(job, repeats):
@@ -116,7 +125,8 @@ def say(costs, students):
         print(f"| {name} | {1000 * costs[name]:.1f} |")
     usual = sum(costs[name] for name in ("read", "hand over", "grade", "frame kept", "page", "copy"))
     first = usual - costs["frame kept"] + costs["frame decoded"]
-    print(f"\ngrading + feedback: {usual:.3f} CPU-s with the frame kept, {first:.3f} when it is decoded ({BUDGET_S})")
+    print(f"\ngrading + feedback: {usual:.3f} CPU-s, the first time too ({BUDGET_S})")
+    print(f"where no frame was kept at hand-out: {first:.3f} the first time")
     print(f"page: {costs['page'] * 1000:.1f} ms ({PAGE_S * 1000:g}), {costs['bytes']} bytes ({PAGE_BYTES})")
     print(f"copy of the workbook: {costs['copy_bytes']} bytes")
     print(f"{students} students: {students * usual:.0f} CPU-s")

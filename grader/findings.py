@@ -12,7 +12,7 @@ from assignments import key as keys
 from assignments.model import AnswerKey
 from grader import tables
 from grader.events import now
-from grader.integrity import Evidence
+from grader.integrity import NEVER, Evidence
 
 
 @dataclass(frozen=True)
@@ -65,8 +65,11 @@ def brought_by_another(connection: Connection, assignment_id: str) -> tuple[Evid
         .where(tables.assignment.c.slug == assignment_id, giver.c.id != owner.c.id)
         .distinct()
     )
-    words = "The student handed in the workbook that was made for another one; its signed code says so."
-    return tuple(Evidence(*row, "other-student", 1.0, 0.0, words) for row in connection.execute(wanted))
+    words = (
+        "The student handed in the workbook that was made for another one; its signed code says so. "
+        "Somebody who took the wrong file, or handed in for a friend, does the same."
+    )
+    return tuple(Evidence(*row, "other-student", 1.0, NEVER, words) for row in connection.execute(wanted))
 
 
 def add_findings(connection: Connection, assignment_id: str, found: Iterable[Evidence]) -> int:

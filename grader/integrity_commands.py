@@ -44,4 +44,6 @@ def integrity(
 
 
 def _rate(rate: float) -> str:
+    if rate <= 0.0:
+        return "never by chance"
     return "says little by itself" if rate >= 1.0 else f"in at most {rate:.1%} of honest classes"

@@ -1,7 +1,7 @@
 """The packages that grading needs in the container, as wheels: nothing is fetched when the image is built.
 
-Not all that the project needs: no video (av), no tables (pandas), no database (sqlalchemy, alembic), no web, no
-command line. OpenCV, numba and llvmlite come along because a scene's file also says how it is drawn.
+Not all that the project needs: no pictures and no video (OpenCV, numba, av), no tables (pandas), no database
+(sqlalchemy, alembic), no web, no command line. Pymunk comes along because a scene's file says what is simulated.
 """
 
 from __future__ import annotations
@@ -18,11 +18,8 @@ NEEDED = (
     "annotated-types",
     "cffi",
     "et_xmlfile",
-    "llvmlite",
     "MarkupSafe",
-    "numba",
     "numpy",
-    "opencv-python-headless",
     "openpyxl",
     "pycparser",
     "pydantic",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import dataclasses
 import hashlib
 import itertools
@@ -13,6 +14,8 @@ import zipfile
 from collections.abc import Iterator
 from pathlib import Path
 
+import cv2
+import numpy as np
 import pytest
 
 import assignments.release
@@ -22,6 +25,7 @@ from assignments.course import Course, new_course
 from assignments.errors import NotMeasuredError, NoVariantError
 from assignments.fairness import Fair, Prediction
 from assignments.film import film, foresee
+from assignments.impact_frame import kept_frame
 from assignments.key import to_json
 from assignments.load import load_assignment
 from assignments.model import AnswerKey, Assignment, Variant
@@ -31,6 +35,7 @@ from assignments.variants import draw_variant
 from assignments.workplace import workplace_prefix
 from vml_course.errors import InputError
 from vml_course.io.files import sha256_of
+from vml_course.io.video import read_frames
 from vml_course.model.solution import Estimate, ImpactSolution
 from vml_course.model.truth import Truth
 from vml_course.usecases.make_video import MadeVideo
@@ -87,6 +92,19 @@ def test_the_key_belongs_to_the_very_file(made: Made) -> None:
     assert {"vml_course", "pymunk", "generator", "assignment"} <= set(key.versions)
 
 
+def test_the_picture_of_the_impact_is_kept_for_later_pages_and_bound_to_the_video(made: Made) -> None:
+    _, key = made.keys["s1"]
+    frame = kept_frame(made.course.shelf, key)
+    assert frame is not None
+    assert frame.index == key.truth["frame_before"]
+    data = base64.b64decode(frame.address.partition(",")[2])
+    kept = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_GRAYSCALE)
+    (seen,) = read_frames(made.folder / "video.mp4", frame.index, frame.index)
+    part = seen.luma[frame.top : frame.top + frame.height, frame.left : frame.left + frame.width]
+    assert np.abs(kept.astype(int) - part).mean() < 6  # grey levels, of a JPEG
+    assert kept_frame(made.course.shelf, dataclasses.replace(key, video_sha256="0" * 64)) is None
+
+
 def test_the_zip_holds_the_same_files_and_nothing_of_this_machine(made: Made) -> None:
     with zipfile.ZipFile(made.course.handouts(KICK.id) / "zips" / "s1.zip") as archive:
         assert {name: archive.read(name) for name in archive.namelist()} == _files(made)
@@ -118,6 +136,7 @@ def test_looking_through_writes_nothing(made: Made) -> None:
 IN_THIS_PROCESS = """
 import json, sys
 from dataclasses import asdict
+from assignments.impact_frame import kept_frame
 from assignments.key import to_json
 from assignments.load import load_assignment
 from assignments.release import Order, release
@@ -277,7 +296,7 @@ def _measure_inertia_by(monkeypatch: pytest.MonkeyPatch, factors: Iterator[float
     monkeypatch.setattr(assignments.release, "fair_variant", _drawn)
     monkeypatch.setattr(assignments.release, "track_points", lambda *_: None)
     monkeypatch.setattr(assignments.release, "solve", solved)
-    monkeypatch.setattr(assignments.release, "_write", lambda *_: {})
+    monkeypatch.setattr(assignments.release, "_write", lambda *_: ({}, None))
 
 
 def _drawn(assignment: Assignment, secret: bytes, student: str, *, first: int) -> Fair:

@@ -20,6 +20,7 @@ import numpy as np
 import pytest
 
 from assignments.film import foresee
+from assignments.impact_frame import cut_out
 from assignments.key import answer_key
 from assignments.load import load_assignment
 from assignments.model import AnswerKey, Assignment
@@ -29,7 +30,6 @@ from assignments.words import tracking_columns
 from grader.adjust import Adjustment
 from grader.class_page import class_page
 from grader.feedback import Report, feedback_page
-from grader.frame import cut_out
 from grader.grade import grade
 from grader.gradebook import Row, Student
 from grader.items import evidence_of

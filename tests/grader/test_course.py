@@ -372,6 +372,7 @@ def test_a_class_is_compared_and_no_grade_changes(room, capsys):
     said = capsys.readouterr().out
     (line,) = (line for line in said.splitlines() if "other-video" in line)
     assert line.split()[:2] == [room.students[2].pid, room.students[0].pid]
+    assert line.endswith("in at most 3.0% of honest classes")
     assert "3 workbooks compared" in said
     assert "not a verdict" in said
     assert run(["integrity", "soccer-kick", "--course", str(room.course.folder), "--json"]) == 0

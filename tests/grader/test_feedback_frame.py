@@ -9,7 +9,8 @@ import cv2
 import numpy as np
 import pytest
 
-from grader.frame import HEIGHT, MOST_BYTES, WIDTH, cut_out, impact_frame
+from assignments.impact_frame import HEIGHT, MOST_BYTES, WIDTH, cut_for, cut_out, keep_frame
+from grader.frame import impact_frame
 from vml_course.io.shelf import FolderShelf, open_shelf
 from vml_course.io.video import picture_from_bgr, write_video
 
@@ -80,6 +81,13 @@ def test_a_frame_that_was_kept_is_found_again_without_the_video(course):
     (shelf.folder / "handouts" / key.assignment_id / key.student / "video.mp4").unlink()
     assert impact_frame(shelf, key) == made
     assert impact_frame(shelf, replace(key, video_sha256="1" * 64)) is None
+
+
+def test_a_frame_that_was_kept_at_hand_out_needs_no_video(desk, tmp_path):
+    key = replace(desk.key, truth={**desk.key.truth, "frame_before": float(INDEX)})
+    frame = cut_for(key, ramp(), INDEX)
+    keep_frame(FolderShelf(tmp_path), key, frame)
+    assert impact_frame(FolderShelf(tmp_path), key) == frame
 
 
 @pytest.mark.parametrize("spoilt", [b"", b"[]", b"{}", b'{"video_sha256": 1}', b"\xff"])

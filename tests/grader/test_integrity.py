@@ -10,7 +10,8 @@ from sqlalchemy import create_engine, insert
 
 from grader import tables
 from grader.findings import add_findings, brought_by_another, findings_of, keys_of_class, newest_files
-from grader.integrity import NO_BOUND, Evidence, HandedIn, compare
+from grader.integrity import NEVER, NO_BOUND, SELDOM, Evidence, HandedIn, compare
+from grader.integrity_commands import _rate
 from grader.residuals import correlations, residual_of
 from grader.trajectory import fit_trajectory
 
@@ -154,6 +155,19 @@ def test_progress_is_told(honest):
     assert said == [(1, 3), (2, 3), (3, 3)]
 
 
+@pytest.mark.parametrize(
+    ("rate", "words"),
+    [
+        (NEVER, "never by chance"),
+        (SELDOM, "in at most 3.0% of honest classes"),
+        (0.99, "in at most 99.0% of honest classes"),
+        (NO_BOUND, "says little by itself"),
+    ],
+)
+def test_a_rate_is_told_in_words(rate, words):
+    assert _rate(rate) == words
+
+
 # ---------------------------------------------------------------- what is kept
 
 
@@ -193,6 +207,8 @@ def test_a_workbook_brought_by_another_student_is_told(connection):
     connection.execute(insert(tables.receipt).values(**receipt, student_id=1))
     (item,) = brought_by_another(connection, "soccer-kick")
     assert (item.pid, item.other, item.method) == ("p1", "p2", "other-student")
+    assert item.false_positive_rate == NEVER
+    assert "wrong file" in item.words
 
 
 def test_the_newest_attempt_is_compared(connection):

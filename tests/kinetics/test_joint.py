@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 from vml_course.kinetics.clear_frames import Seen
-from vml_course.kinetics.joint import Held, Problem, Watched, fit, residuals, slopes
+from vml_course.kinetics.joint import Held, Misfit, Problem, Watched, fit, residuals
 from vml_course.kinetics.paths import flying, sliding, swinging, turning
 from vml_course.kinetics.pendulum import swung
 
@@ -35,12 +35,23 @@ def test_complex_steps_are_the_derivatives_of_the_residuals(name, shift):
     seen = Seen(TIME, np.random.default_rng(10).normal(size=(12, 2)), np.full(12, 0.1), TIME > 0.004)
     problem = Problem(start, {"L": 0.6}, (Watched("ball", seen, path),), (Held(lambda u: u["t"] - 0.01 * u["L"], 0.5),))
     x = np.array(list(start.values()))
-    found, row = slopes(problem, x), problem.rows(x)
+    found, row = Misfit(problem).slopes(x), problem.rows(x)
     for j in range(row.shape[1]):
         aside = np.zeros_like(row)
         aside[0, j] = 1e-7 * max(abs(row[0, j]), 0.01)
         slope = (residuals(problem, row + aside) - residuals(problem, row - aside))[0] / (2 * aside[0, j])
         np.testing.assert_allclose(found[:, j], slope, atol=2e-5 * max(1.0, np.abs(slope).max()))
+
+
+def test_a_pendulum_that_hangs_stays_and_a_fit_that_went_astray_ends():
+    one, time = np.ones((1, 1)), np.linspace(-0.3, 0.5, 9)[None]
+    hangs = swung(time, time[0] > 0, 0.7 * one, (0 * one, 0 * one), (0 * one, 0 * one, 0 * one))
+    assert hangs == pytest.approx(0.7, abs=1e-15)
+    for rate in (np.nan, np.inf, 1e12):
+        with np.errstate(all="ignore"):
+            astray = swung(time, time[0] > 0, one, (0 * one, rate * one), (30 * one, 0 * one, 0 * one))
+        assert astray.shape == time.shape
+        assert not np.isclose(astray[0, -1], 1.0)
 
 
 @settings(deadline=None, max_examples=30)

@@ -289,6 +289,47 @@ def test_a_ballistic_pendulum_gives_i_and_v1_by_momentum_and_by_energy(turn):
     assert found.notes == ()
 
 
+def stuck(motion, d=0.7):
+    """The same clip with the pellet tracked on: it sits straight below the pivot, and turns with the pendulum."""
+    xy, bob, pellet = motion.xy_m.copy(), motion.points.index("bob"), motion.points.index("pellet")
+    xy[AFTER, pellet] = d / 0.8 * xy[AFTER, bob]
+    return replace(motion, xy_m=xy)
+
+
+def test_the_pellet_tells_when_a_slow_pendulum_is_lost_in_a_hands_noise():
+    rng = np.random.default_rng(4)
+    for _ in range(8):
+        clicked = noisy(stuck(pendulum()), rng, 1.0)
+        found = impact_model("ballistic-pendulum").solve(clicked, PENDULUM_GIVEN, PENDULUM)
+        for symbol, true in (("I", 0.6), ("v1", 15.0)):
+            assert found.value(symbol) == pytest.approx(true, abs=4 * found.estimates[symbol].sd)
+
+
+def test_a_pellet_that_the_tracker_loses_inside_leaves_it_to_the_pendulum():
+    motion = stuck(pendulum())
+    xy = motion.xy_m.copy()
+    xy[90:, motion.points.index("pellet")] += 0.1 * np.arange(len(xy) - 90)[:, None]  # it is off after something else
+    found = impact_model("ballistic-pendulum").solve(replace(motion, xy_m=xy), PENDULUM_GIVEN, PENDULUM)
+    assert found.value("I") == pytest.approx(0.6, rel=1e-5)
+    assert found.value("v1") == pytest.approx(15.0, rel=1e-5)
+
+
+def test_where_neither_tells_the_pendulum_is_named():
+    hidden = noisy(pendulum(), np.random.default_rng(4), 3.0)
+    with pytest.raises(NoImpactError, match="bob: expected a sudden change of velocity"):
+        impact_model("ballistic-pendulum").solve(hidden, PENDULUM_GIVEN, PENDULUM)
+
+
+def test_a_pellet_that_is_seen_on_changes_nothing_in_a_sharp_clip():
+    away, on = (
+        impact_model("ballistic-pendulum").solve(motion, PENDULUM_GIVEN, PENDULUM)
+        for motion in (pendulum(), stuck(pendulum()))
+    )
+    assert on.frame_before == away.frame_before
+    for symbol in ("I", "v1"):
+        assert on.value(symbol) == pytest.approx(away.value(symbol), rel=1e-6)
+
+
 def test_roads_that_disagree_are_told():
     found = impact_model("ballistic-pendulum").solve(pendulum(), {**PENDULUM_GIVEN, "m": 0.06}, PENDULUM)
     assert "by momentum and" in found.notes[-1]

@@ -8,6 +8,7 @@ import pytest
 from scipy.ndimage import map_coordinates
 
 from vml_course.synth.exposure import FEWEST_INSTANTS, STEP_PX, Swept, count_instants, expose
+from vml_course.synth.look import look_of
 from vml_course.synth.path import fine_path
 from vml_course.synth.render import draw_frames, exposures, scene_of
 from vml_course.synth.scene import scene_class
@@ -84,7 +85,7 @@ def test_bodies_that_hide_one_another_are_averaged_as_whole_pictures():
 @pytest.mark.parametrize(("fps", "shutter"), [(480, 0.17), (240, 0.9), (60, 0.5)])
 def test_instants_are_closer_together_than_a_pixel(fps, shutter):
     truth = simulate(SoccerKick(), camera(fps, shutter), 1)
-    look = scene_of(truth).look(truth.camera, truth.seed)
+    look = look_of(scene_of(truth), truth.camera, truth.seed)
     for pose_px, _ in exposures(truth, [look.sprites[body] for body in truth.bodies]):
         assert len(pose_px) >= FEWEST_INSTANTS
         assert np.hypot(*np.diff(pose_px[:, 1, :2], axis=0).T).max() < STEP_PX
@@ -106,7 +107,7 @@ def test_the_path_passes_through_the_frames_and_turns_sharply_at_the_impact():
 
 def test_an_exposure_with_the_impact_shows_the_ball_at_rest_and_in_flight():
     truth = simulate(SoccerKick(impact_phase=0.37), camera(240, 0.9), 1)
-    look = scene_of(truth).look(truth.camera, truth.seed)
+    look = look_of(scene_of(truth), truth.camera, truth.seed)
     poses = [pose for pose, _ in exposures(truth, [look.sprites[body] for body in truth.bodies])]
     middle, impact = truth.impact.frame_before, truth.impact.time_s
     x = poses[middle][:, 1, 0]
@@ -121,7 +122,7 @@ def test_the_centre_of_a_blurred_ball_is_the_truth():
     frame = sharp.impact.frame_before + 4
     centres = []
     for truth in (sharp, blurred):
-        look = scene_of(truth).look(truth.camera, truth.seed)
+        look = look_of(scene_of(truth), truth.camera, truth.seed)
         ball, pose = look.sprites["ball"], list(exposures(truth, [look.sprites["leg"], look.sprites["ball"]]))[frame][0]
         planes = Planes(np.zeros((720, 1280), np.float32), np.zeros((360, 640, 2), np.float32))
         expose(planes, [Swept(ball, pose[:, 1])])

@@ -11,6 +11,7 @@ from scipy.special import erf
 from vml_course.errors import SceneRefusedError
 from vml_course.io.truth import read_truth_json, write_truth_json
 from vml_course.synth.exposure import Swept, count_instants, expose
+from vml_course.synth.look import look_of
 from vml_course.synth.path import fine_path
 from vml_course.synth.render import draw_frames, scene_of, to_picture
 from vml_course.synth.rows import with_rows
@@ -123,7 +124,7 @@ def test_a_rolling_shutter_shows_the_foot_ahead_below_the_middle_and_behind_abov
 def test_each_row_is_that_of_a_picture_taken_all_at_once_at_the_rows_time(shutter):
     truth = film(rolling_shutter=1.0, fps=240.0, shutter=shutter)
     camera, path, frame = truth.camera, fine_path(scene_of(truth), 240.0), truth.impact.frame_before
-    look = scene_of(truth).look(camera, truth.seed)
+    look = look_of(scene_of(truth), camera, truth.seed)
     rolled = next(islice(draw_frames(truth), frame, None)).luma
     still = make_planes(look.background)
     sprites = [look.sprites[body] for body in truth.bodies]

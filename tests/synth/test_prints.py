@@ -7,11 +7,11 @@ import pytest
 from vml_course.errors import UnknownNameError
 from vml_course.io.truth import read_truth_json, write_truth_json
 from vml_course.synth.props.backgrounds import BACKGROUNDS
-from vml_course.synth.props.prints import PRINTS
 from vml_course.synth.render import draw_frames
 from vml_course.synth.scene import scene_class
 from vml_course.synth.settings import read_settings
 from vml_course.synth.simulate import simulate
+from vml_course.synth.views import PRINTS
 
 SoccerKick = scene_class("soccer_kick")
 BLOCK = 20  # px about a point, inside the shin's outline

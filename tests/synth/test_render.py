@@ -9,6 +9,7 @@ from scipy.optimize import least_squares
 from scipy.special import erf
 
 from vml_course.model.recording import Recording
+from vml_course.synth.look import look_of
 from vml_course.synth.render import draw_frames, render
 from vml_course.synth.scene import scene_class
 from vml_course.synth.simulate import simulate
@@ -170,7 +171,7 @@ def test_the_leg_never_enters_the_ball():
     """Drawn alone, the leg covers nothing of the ball's disc around the impact."""
     for kick in (SoccerKick(), SoccerKick(normal_tilt_deg=-5.0), SoccerKick(normal_tilt_deg=5.0, ball_diameter_m=0.3)):
         truth = simulate(kick, CAMERA, seed=5)
-        leg, radius = kick.look(CAMERA, 5).sprites["leg"], kick.ball_diameter_m / 2 * CAMERA.px_per_m
+        leg, radius = look_of(kick, CAMERA, 5).sprites["leg"], kick.ball_diameter_m / 2 * CAMERA.px_per_m
         y, x = np.mgrid[:720, :1280]
         for frame in range(truth.impact.frame_before - 6, truth.impact.frame_before + 4):
             blank = Planes(np.zeros((720, 1280), np.float32), np.zeros((360, 640, 2), np.float32))

@@ -1,5 +1,6 @@
 """The registry of scenes and what `--set` understands."""
 
+import pkgutil
 import subprocess
 import sys
 from dataclasses import fields
@@ -9,6 +10,7 @@ import pytest
 from vml_course.errors import InputError, NumberError, OutOfRangeError, UnknownNameError
 from vml_course.kinetics.impact_model import ImpactOptions
 from vml_course.model.quantity import quantities_of
+from vml_course.synth import looks
 from vml_course.synth.scene import scene_class, scene_names
 from vml_course.synth.settings import make_settings, read_settings, settable
 from vml_course.synth.simulate import simulate
@@ -26,6 +28,10 @@ def test_every_scene_is_honest_with_its_defaults(name):
     assert set(truth.declared) <= {item.name for item in fields(ImpactOptions)} | set(MARKS)
     assert {str(value) for word, value in truth.declared.items() if word in MARKS} <= set(truth.points)
     assert all(item.about for item in quantities_of(kind).values())
+
+
+def test_every_scene_has_a_file_that_draws_it_and_nothing_else_is_drawn():
+    assert tuple(sorted(item.name for item in pkgutil.iter_modules(looks.__path__))) == scene_names()
 
 
 def test_an_unknown_scene_is_told_with_those_that_exist():

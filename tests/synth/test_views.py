@@ -5,13 +5,13 @@ import pytest
 
 from vml_course.model.choice import choices_of
 from vml_course.model.quantity import quantities_of
+from vml_course.synth.look import look_of
 from vml_course.synth.props.backgrounds import BACKGROUNDS
 from vml_course.synth.props.floors import FLOORS
-from vml_course.synth.props.prints import PRINTS
 from vml_course.synth.render import draw_frames
 from vml_course.synth.scene import scene_class, scene_names
 from vml_course.synth.simulate import simulate
-from vml_course.synth.views import PrintedScene, SideView, TopView
+from vml_course.synth.views import PRINTS, PrintedScene, SideView, TopView
 
 PRINTED = [name for name in scene_names() if issubclass(scene_class(name), PrintedScene)]
 PLACE = {"soccer_kick": "shin"}  # else the first point that is tracked
@@ -23,7 +23,7 @@ every_printed = pytest.mark.parametrize("name", PRINTED)
 
 def look(name, **how):
     kind = scene_class(name)
-    return kind(**how).look(kind.default_camera, 3)
+    return look_of(kind(**how), kind.default_camera, 3)
 
 
 def uncertain_px(name, texture):
@@ -67,8 +67,8 @@ def test_speckle_and_logo_can_be_found_while_stripes_and_plain_bodies_are_traps(
 def test_no_speckle_is_left_at_contrast_zero(name):
     """Two seeds then draw the same bodies."""
     kind = scene_class(name)
-    first, second = (kind(speckle=0.0).look(kind.default_camera, seed).sprites for seed in (1, 2))
-    usual = kind().look(kind.default_camera, 1).sprites
+    first, second = (look_of(kind(speckle=0.0), kind.default_camera, seed).sprites for seed in (1, 2))
+    usual = look_of(kind(), kind.default_camera, 1).sprites
     for body in kind.bodies:
         assert np.array_equal(first[body].luma, second[body].luma)
         assert not np.array_equal(first[body].luma, usual[body].luma)

@@ -94,9 +94,26 @@ def residuals(problem: Problem, rows: Any) -> Any:
     return np.concatenate(parts, axis=1)
 
 
-def slopes(problem: Problem, x: FloatArray) -> FloatArray:
-    """Return the derivatives of `residuals` by unknowns and known numbers, shape (all, unknowns + known)."""
-    return np.asarray(residuals(problem, problem.stepped(x)).imag.T / STEP)
+class Misfit:
+    """Residuals of a problem and their derivatives: a fit asks for both at one place, and one evaluation holds both."""
+
+    def __init__(self, problem: Problem) -> None:
+        self._problem = problem
+        self._x: FloatArray | None = None
+        self._stepped: Any = None
+
+    def residuals(self, x: FloatArray) -> FloatArray:
+        """Return the residuals, shape (all,)."""
+        return np.ascontiguousarray(self._at(x)[0].real)
+
+    def slopes(self, x: FloatArray) -> FloatArray:
+        """Return the derivatives by unknowns and known numbers, shape (all, unknowns + known)."""
+        return np.asarray(self._at(x).imag.T / STEP)
+
+    def _at(self, x: FloatArray) -> Any:
+        if self._x is None or not np.array_equal(x, self._x):
+            self._x, self._stepped = x.copy(), residuals(self._problem, self._problem.stepped(x))
+        return self._stepped
 
 
 @dataclass(frozen=True, eq=False)
@@ -200,20 +217,17 @@ def _rightly_sided(point: Watched, time_s: float) -> Watched:
 
 
 def _fit(problem: Problem) -> Fit:
-    count = len(problem.start)
-
-    def misfit(x: FloatArray) -> FloatArray:
-        return np.asarray(residuals(problem, problem.rows(x))[0])
+    count, misfit = len(problem.start), Misfit(problem)
 
     def by_unknowns(x: FloatArray) -> FloatArray:
-        return slopes(problem, x)[:, :count]
+        return misfit.slopes(x)[:, :count]
 
     found = least_squares(
-        misfit, np.array(list(problem.start.values())), jac=by_unknowns, method="lm", x_scale="jac",
+        misfit.residuals, np.array(list(problem.start.values())), jac=by_unknowns, method="lm", x_scale="jac",
         xtol=1e-13, ftol=1e-13, gtol=1e-13, max_nfev=100,
     )  # fmt: skip
     x = np.asarray(found.x, dtype=np.float64)
-    every, residual = slopes(problem, x), misfit(x)
+    every, residual = misfit.slopes(x), misfit.residuals(x)
     scale = np.maximum(np.sqrt(np.sum(every[:, :count] ** 2, axis=0)), 1e-300)
     inverse = np.linalg.pinv(every[:, :count] / scale, rcond=1e-12) / scale[:, None]
     scatter, noise, whole = _errors(problem, residual, every[:, :count], inverse)

@@ -13,6 +13,7 @@ from vml_course.model.recording import Recording
 from vml_course.model.truth import Truth
 from vml_course.synth.bent import Bent
 from vml_course.synth.exposure import Swept, count_instants, expose, expose_shaken
+from vml_course.synth.look import Look, look_of
 from vml_course.synth.path import fine_path
 from vml_course.synth.rows import row_exposures
 from vml_course.synth.scene import AnyScene, Scene, scene_class
@@ -49,7 +50,7 @@ def draw_frames(truth: Truth) -> Iterator[Planes]:
         yield from draw_strained(truth, scene)
         return
     sight = Sight(truth.camera)
-    look = impact_scene_of(truth).look(sight.board, truth.seed)
+    look: Look = look_of(impact_scene_of(truth), sight.board, truth.seed)
     sprites = [look.sprites[body] for body in truth.bodies]
     still = sight.still(make_planes(look.background))
     planes = still.copy()

@@ -13,7 +13,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 from vml_course.errors import UnknownNameError
 from vml_course.model.camera import Camera
@@ -22,9 +22,6 @@ from vml_course.model.quantity import check_quantities, quantity
 from vml_course.synth import scenes
 from vml_course.synth.clock import LONGEST_STEP_S, Clock, set_clock
 from vml_course.synth.law import Law
-
-if TYPE_CHECKING:
-    from vml_course.synth.look import Look
 
 
 @dataclass(frozen=True)
@@ -87,10 +84,11 @@ class AnyScene(ABC):
 
 @dataclass(frozen=True)
 class Scene(AnyScene):
-    """Base of all scenes with an impact: say the parameters, the physics, what is tracked, and how it looks.
+    """Base of all scenes with an impact: say the parameters, the physics, and what is tracked.
 
     To add one, write a file in `synth/scenes` with one subclass: a frozen dataclass with the class
-    attributes of `AnyScene` and those below, its fields by `quantity()`, and the abstract methods.
+    attributes of `AnyScene` and those below, its fields by `quantity()`, and the abstract methods; and a file of the
+    scene's name in `synth/looks` that draws it.
 
     Attributes
     ----------
@@ -129,10 +127,6 @@ class Scene(AnyScene):
     def declared(self) -> dict[str, str | float | bool]:
         """Return what the solver is told beside it: fields of `kinetics.impact_model.ImpactOptions`."""
         return {}
-
-    @abstractmethod
-    def look(self, camera: Camera, seed: int) -> Look:
-        """Draw the background and one sprite a body."""
 
 
 @cache

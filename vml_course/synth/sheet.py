@@ -10,18 +10,14 @@ import math
 from abc import abstractmethod
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
 from vml_course.model.arrays import FloatArray
-from vml_course.model.camera import Camera
 from vml_course.model.quantity import quantity
 from vml_course.model.truth import Check
 from vml_course.synth.scene import AnyScene
-
-if TYPE_CHECKING:
-    from vml_course.synth.strained import StrainedLook
 
 RISE = 0.5  # the part of a load step in which the load rises; then it is held, as one does to take a reading
 CLOSE_M = 1e-10
@@ -33,7 +29,8 @@ class Sheet(AnyScene):
     """Base of all scenes in which a body is strained; places are in metres, y up, before loading.
 
     To add one, write a file in `synth/scenes` with one subclass: a frozen dataclass with the class attributes of
-    `AnyScene` and those below, its fields by `quantity()`, and the abstract methods.
+    `AnyScene` and those below, its fields by `quantity()`, and the abstract methods; and a file of the scene's name in
+    `synth/looks` that draws it.
 
     Attributes
     ----------
@@ -78,10 +75,6 @@ class Sheet(AnyScene):
     @abstractmethod
     def rigid_pose(self, load: FloatArray) -> FloatArray:
         """Return where the rigid bodies are at some loads: shape (n,) -> (n, b, 3); m, m, rad."""
-
-    @abstractmethod
-    def look(self, camera: Camera, seed: int) -> StrainedLook:
-        """Draw background, sheet, and rigid bodies."""
 
     @property
     def length_s(self) -> float:

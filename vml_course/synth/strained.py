@@ -23,6 +23,7 @@ from vml_course.model.camera import Camera
 from vml_course.model.truth import Truth
 from vml_course.synth.bent import Bent, halved
 from vml_course.synth.canvas import Canvas
+from vml_course.synth.look import look_of
 from vml_course.synth.shake import shifted
 from vml_course.synth.sheet import Sheet
 from vml_course.synth.sight import Sight, in_halves
@@ -55,7 +56,8 @@ class StrainedLook:
 def draw_strained(truth: Truth, scene: Sheet) -> Iterator[Planes]:
     """Yield the pictures without noise and rounding; none may be kept."""
     sight = Sight(truth.camera)
-    look, strain = scene.look(sight.board, truth.seed), truth.strain
+    look: StrainedLook = look_of(scene, sight.board, truth.seed)
+    strain = truth.strain
     if strain is None:
         raise ValueError("nothing is strained")
     still = sight.still(make_planes(look.background))

@@ -18,7 +18,7 @@ from typing import Any, final
 
 import numpy as np
 
-from vml_course.errors import OutOfRangeError
+from vml_course.errors import NoImpactError, OutOfRangeError
 from vml_course.kinetics.arc import fit_arc
 from vml_course.kinetics.clear_frames import ClearFrames, Seen, frames_about
 from vml_course.kinetics.impact_model import ImpactOptions, check_given
@@ -97,9 +97,7 @@ class BallisticPendulum:
         check_given(given, self.given)
         if options.gravity_m_s2 <= 0:
             raise OutOfRangeError("gravity", 0.1, 30.0, "m/s^2", options.gravity_m_s2)
-        is_seen = np.asarray(np.isfinite(motion.of(options.striker)).all(axis=1))
-        window = options.window_s, max(options.window_s, RISE_S)
-        frames = frames_about(motion, options.striker, is_seen, (None, None), window)
+        frames = _frames(motion, options)
         known = {**{symbol: given[symbol] for symbol in self.given}, "g": options.gravity_m_s2}
         free = fit(_problem(motion, known, options, frames))
         roads = free.derive(_two_roads)
@@ -113,6 +111,23 @@ class BallisticPendulum:
         figures |= {f"{name}_sd_random": sd for name, sd in zip(roads.names, sds, strict=True)}
         figures |= {"pivot_x_m": found["kx"], "pivot_y_m": found["ky"], "mark_radius_m": found["r"]}
         return joint_solution(solving, found, _outcome, figures, _notes(figures, solving))
+
+
+def _frames(motion: Motion, options: ImpactOptions) -> ClearFrames:
+    """Find the impact by the pendulum; where it starts too slowly for its noise, by the pellet, which stops at once.
+
+    The pellet comes second: it need not be seen any more once it is inside, and a tracker may lose it there and jump.
+    """
+    is_seen = np.asarray(np.isfinite(motion.of(options.striker)).all(axis=1))
+    window = options.window_s, max(options.window_s, RISE_S)
+    gravity = np.array(options.gravity_xy_m_s2) if options.flight == "always" else None
+    try:
+        return frames_about(motion, options.striker, is_seen, (None, None), window)
+    except NoImpactError as not_by_pendulum:
+        try:
+            return frames_about(motion, options.struck, is_seen, (gravity, None), window)
+        except NoImpactError:
+            raise not_by_pendulum from None
 
 
 def _problem(motion: Motion, known: Mapping[str, float], options: ImpactOptions, frames: ClearFrames) -> Problem:

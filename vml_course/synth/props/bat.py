@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from vml_course.synth.bodies import BAT_CLAMP_M
 from vml_course.synth.canvas import Canvas, sheet
 from vml_course.synth.props.prints import Print
 from vml_course.synth.props.surface import draw_mark, speckle
@@ -20,7 +21,6 @@ BAND = (150.0, 40.0, 42.0)
 STEEL = (112.0, 116.0, 124.0)
 TIP_M = 0.075  # of the barrel beyond the point that hits
 HANDLE_M = 0.017
-CLAMP_M = 0.05
 GRAIN_GREY = 26.0
 
 
@@ -34,15 +34,15 @@ class Bat:
 
 def draw_bat(bat: Bat, px_per_m: float, printed: Print) -> Sprite:
     """Draw a bat whose hands are its origin; a steel clamp holds it there."""
-    wide = max(CLAMP_M, bat.barrel_m) + 0.005
-    on = sheet((wide, wide, bat.length_m + TIP_M + bat.barrel_m, CLAMP_M + 0.02), px_per_m, OVERSAMPLE)
+    wide = max(BAT_CLAMP_M, bat.barrel_m) + 0.005
+    on = sheet((wide, wide, bat.length_m + TIP_M + bat.barrel_m, BAT_CLAMP_M + 0.02), px_per_m, OVERSAMPLE)
     wood = _wood(on, bat)
     on.fill(wood, WOOD)
     on.lighten(_rings(on, bat), wood)
     for low, high, rgb in ((-0.44, -0.1, TAPE), (-0.52, -0.5, BAND), (-0.56, -0.54, BAND)):
         on.fill(both(wood, box(on, (-1.0, low * bat.length_m), (1.0, high * bat.length_m))), rgb)
     printed.draw_stripes(on, wood, -0.56 * bat.length_m)
-    clamp = disc(on, (0.0, 0.0), CLAMP_M)
+    clamp = disc(on, (0.0, 0.0), BAT_CLAMP_M)
     on.fill(clamp, STEEL)
     outline = union(wood, clamp)
     speckle(on, printed, "bat", GRAIN_GREY, outline, 1.2)

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
+from vml_course.synth.bodies import CATCHER_HUB_M, Catcher
 from vml_course.synth.canvas import sheet
 from vml_course.synth.props.prints import Print
 from vml_course.synth.props.surface import draw_card, shade, speckle
@@ -20,42 +19,17 @@ TUNNEL = (52.0, 46.0, 42.0)
 PUTTY = (120.0, 116.0, 128.0)
 FELT = (206.0, 218.0, 84.0)
 SEAM = (240.0, 240.0, 232.0)
-HUB_M = 0.036
 GRAIN_GREY = 24.0
-
-
-@dataclass(frozen=True, slots=True)
-class Catcher:
-    """Sizes in metres: how deep below the pivot the tunnel lies, its pellet, and the mark below the tunnel."""
-
-    depth_m: float
-    pellet_m: float
-    mark_m: float
-
-    @property
-    def half_m(self) -> float:
-        """Half the width of the box."""
-        return 2.3 * self.pellet_m + 0.02
-
-    @property
-    def card_m(self) -> float:
-        """Radius of the card around the mark."""
-        return 0.036
-
-    @property
-    def bottom_m(self) -> float:
-        """How deep the box reaches below the pivot."""
-        return self.depth_m + self.mark_m + self.card_m + 0.008
 
 
 def draw_catcher(catcher: Catcher, px_per_m: float, printed: Print) -> Sprite:
     """Draw a pendulum whose pivot is its origin; the tunnel opens to the left and ends in putty."""
     half, depth, pellet = catcher.half_m, catcher.depth_m, catcher.pellet_m
     top = -depth + pellet + 0.03
-    on = sheet((half, half, catcher.bottom_m, HUB_M), px_per_m, OVERSAMPLE)
+    on = sheet((half, half, catcher.bottom_m, CATCHER_HUB_M), px_per_m, OVERSAMPLE)
     arms = union(*(tapered(on, ((0.0, 0.0), 0.007), ((x, top), 0.007)) for x in (-0.55 * half, 0.55 * half)))
     on.fill(arms, ARM)
-    hub = disc(on, (0.0, 0.0), HUB_M)
+    hub = disc(on, (0.0, 0.0), CATCHER_HUB_M)
     on.fill(hub, ARM)
     body = box(on, (-half, -catcher.bottom_m), (half, top))
     on.fill(body, FRAME)

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from vml_course.synth.bodies import HAMMER_HUB_M
 from vml_course.synth.canvas import Canvas, sheet
 from vml_course.synth.props.lettering import write
 from vml_course.synth.props.prints import Print
@@ -19,7 +20,6 @@ HANDLE = (160.0, 112.0, 64.0)
 RED = (178.0, 58.0, 50.0)
 OAK = (196.0, 152.0, 96.0)
 INK = (46.0, 34.0, 26.0)
-HUB_M = 0.045
 GRAIN_GREY = 24.0
 
 
@@ -34,10 +34,12 @@ class Hammer:
 def draw_hammer(hammer: Hammer, px_per_m: float, printed: Print) -> Sprite:
     """Draw a hammer that hangs from its pivot, the origin; its face looks to the right."""
     head, length = hammer.head_m, hammer.length_m
-    on = sheet((3.2 * head, max(HUB_M, head) + 0.005, length + 1.25 * head, HUB_M + 0.005), px_per_m, OVERSAMPLE)
+    on = sheet(
+        (3.2 * head, max(HAMMER_HUB_M, head) + 0.005, length + 1.25 * head, HAMMER_HUB_M + 0.005), px_per_m, OVERSAMPLE
+    )
     handle = tapered(on, ((0.0, 0.0), 0.016), ((0.0, -length), 0.019))
     on.fill(handle, HANDLE)
-    hub = disc(on, (0.0, 0.0), HUB_M)
+    hub = disc(on, (0.0, 0.0), HAMMER_HUB_M)
     on.fill(hub, RED)
     back = box(on, (-2.2 * head, -length - 0.8 * head), (-0.4 * head, -length + 0.8 * head))
     tail = box(on, (-2.9 * head, -length - 1.1 * head), (-2.2 * head, -length + 1.1 * head))
@@ -45,7 +47,7 @@ def draw_hammer(hammer: Hammer, px_per_m: float, printed: Print) -> Sprite:
     face = disc(on, (0.0, -length), head)
     on.fill(face, STEEL)
     outline = union(handle, hub, back, tail, face)
-    printed.draw_stripes(on, union(handle, back, tail, face), -HUB_M)
+    printed.draw_stripes(on, union(handle, back, tail, face), -HAMMER_HUB_M)
     speckle(on, printed, "hammer", GRAIN_GREY, outline, 1.2)
     if printed.has_targets:
         draw_target(on, (0.0, 0.0), OVERSAMPLE, 0.016)

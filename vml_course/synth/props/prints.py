@@ -10,7 +10,6 @@ from vml_course.synth.canvas import Canvas
 from vml_course.synth.shapes import Point, both, box, disc, polygon, tapered
 from vml_course.synth.texture import Plane, grain
 
-PRINTS = ("speckle", "logo", "stripes", "plain")
 INK = (24.0, 30.0, 58.0)
 PAPER = (236.0, 232.0, 220.0)
 RED = (188.0, 44.0, 48.0)
@@ -26,7 +25,7 @@ class Print:
     seed : int
         Which speckle.
     kind : str
-        One of `PRINTS`.
+        One of `views.PRINTS`.
     contrast, size_px : float
         Of the speckle, as multiples of the usual and of a pixel.
     """

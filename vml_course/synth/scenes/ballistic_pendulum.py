@@ -10,11 +10,8 @@ from typing import ClassVar
 from vml_course.errors import InputError
 from vml_course.model.camera import Camera
 from vml_course.model.quantity import quantity
+from vml_course.synth.bodies import CATCHER_HUB_M, Catcher
 from vml_course.synth.laws.embed import Embedding
-from vml_course.synth.look import Look
-from vml_course.synth.props.catcher import HUB_M, Catcher, draw_catcher, draw_tennis_ball
-from vml_course.synth.props.scale import draw_bar
-from vml_course.synth.props.stand import draw_stand
 from vml_course.synth.scene import Marker
 from vml_course.synth.views import SideView
 
@@ -79,16 +76,16 @@ class BallisticPendulum(SideView):
 
     def markers(self) -> tuple[Marker, ...]:
         """Return the mark below the tunnel, the pivot, and the ball's centre."""
-        catcher = self._catcher()
+        catcher = self.catcher
         return (
             Marker("bob", "pendulum", (0.0, -self.arm_m - catcher.mark_m), catcher.card_m),
-            Marker("pivot", "pendulum", (0.0, 0.0), HUB_M),
+            Marker("pivot", "pendulum", (0.0, 0.0), CATCHER_HUB_M),
             Marker("pellet", "pellet", (0.0, 0.0), self.pellet_radius_m),
         )
 
     def marks_m(self) -> dict[str, tuple[float, float]]:
         """Return both ends of the 50 cm bar on the floor."""
-        height = -(self._catcher().bottom_m + 0.12)
+        height = -(self.catcher.bottom_m + 0.12)
         return {"bar_left": (-0.25, height), "bar_right": (0.25, height)}
 
     def given(self) -> dict[str, float]:
@@ -99,20 +96,7 @@ class BallisticPendulum(SideView):
         """Return which points are tracked, and that the ball flies before the impact."""
         return {"striker": "bob", "struck": "pellet", "knee": "pivot", "flight": "always", "drive": "none"}
 
-    def look(self, camera: Camera, seed: int) -> Look:
-        """Draw the room with the stand, the catcher and the ball."""
-        catcher = self._catcher()
-        floor = -(catcher.bottom_m + 0.08)
-        room, printed = self.room(camera, seed, floor), self.printed(seed)
-        draw_bar(room, self.marks_m())
-        draw_stand(room, (0.0, 0.0), (0.42, floor + 0.02))
-        return Look(
-            background=room,
-            sprites={
-                "pendulum": draw_catcher(catcher, camera.px_per_m, printed),
-                "pellet": draw_tennis_ball(self.pellet_radius_m, camera.px_per_m, printed),
-            },
-        )
-
-    def _catcher(self) -> Catcher:
+    @property
+    def catcher(self) -> Catcher:
+        """Sizes of the catcher."""
         return Catcher(self.arm_m, self.pellet_radius_m, 1.2 * self.pellet_radius_m + MARK_BELOW_BALL_M)

@@ -9,18 +9,13 @@ from typing import ClassVar
 
 from vml_course.model.camera import Camera
 from vml_course.model.quantity import quantity
+from vml_course.synth.bodies import BAT_CLAMP_M
 from vml_course.synth.laws.pinned import PinnedStrike
 from vml_course.synth.laws.struck import Struck
-from vml_course.synth.look import Look
-from vml_course.synth.props.balls import draw_softball
-from vml_course.synth.props.bat import CLAMP_M, Bat, draw_bat
-from vml_course.synth.props.scale import draw_bar
-from vml_course.synth.props.stand import draw_stand
 from vml_course.synth.scene import Marker
 from vml_course.synth.views import SideView
 
 BAR_BELOW_BARREL_M = 0.18
-FLOOR_BELOW_BARREL_M = 0.14
 
 
 @dataclass(frozen=True)
@@ -89,7 +84,7 @@ class BatAndBall(SideView):
         """Return the barrel where it hits, the hands, and the ball's centre."""
         return (
             Marker("barrel", "bat", (0.0, -self.barrel_distance_m), self.barrel_radius_m),
-            Marker("hands", "bat", (0.0, 0.0), CLAMP_M),
+            Marker("hands", "bat", (0.0, 0.0), BAT_CLAMP_M),
             Marker("ball", "ball", (0.0, 0.0), self.ball_diameter_m / 2),
         )
 
@@ -106,18 +101,3 @@ class BatAndBall(SideView):
         """Return which points are tracked, and that the ball flies before the impact too."""
         drive = "free" if self.drive_torque_N_m else "none"
         return {"striker": "barrel", "struck": "ball", "knee": "hands", "flight": "always", "drive": drive}
-
-    def look(self, camera: Camera, seed: int) -> Look:
-        """Draw the room with the rig's post, the bat and the ball."""
-        floor = -(self.barrel_distance_m + FLOOR_BELOW_BARREL_M)
-        room, printed = self.room(camera, seed, floor), self.printed(seed)
-        draw_bar(room, self.marks_m())
-        draw_stand(room, (0.0, 0.0), (-0.16, floor + 0.02))
-        bat = Bat(self.barrel_distance_m, self.barrel_radius_m)
-        return Look(
-            background=room,
-            sprites={
-                "bat": draw_bat(bat, camera.px_per_m, printed),
-                "ball": draw_softball(self.ball_diameter_m / 2, camera.px_per_m, printed),
-            },
-        )

@@ -8,12 +8,9 @@ from typing import ClassVar
 
 from vml_course.model.camera import Camera
 from vml_course.model.quantity import quantity
+from vml_course.synth.bodies import HAMMER_HUB_M
 from vml_course.synth.laws.pinned import PinnedStrike
 from vml_course.synth.laws.struck import Struck
-from vml_course.synth.look import Look
-from vml_course.synth.props.hammer import HUB_M, Hammer, draw_block, draw_hammer, draw_rail
-from vml_course.synth.props.scale import draw_bar
-from vml_course.synth.props.stand import draw_stand
 from vml_course.synth.scene import Marker
 from vml_course.synth.views import SideView
 
@@ -87,7 +84,7 @@ class HammerBlock(SideView):
         wide = max(self.block_half_width_m, self.block_half_height_m)
         return (
             Marker("head", "hammer", (0.0, -self.hammer_length_m), self.head_radius_m),
-            Marker("pivot", "hammer", (0.0, 0.0), HUB_M),
+            Marker("pivot", "hammer", (0.0, 0.0), HAMMER_HUB_M),
             Marker("block", "block", (0.0, 0.0), wide),
         )
 
@@ -105,21 +102,3 @@ class HammerBlock(SideView):
         points: dict[str, str | float | bool] = {"striker": "head", "struck": "block", "knee": "pivot"}
         drive = "free" if self.drive_torque_N_m else "none"
         return points | {"flight": "never", "drive": drive, "window_s": 0.15}
-
-    def look(self, camera: Camera, seed: int) -> Look:
-        """Draw the room with stand and bench, the hammer and the block."""
-        bench = -(self.hammer_length_m + self.block_half_height_m)
-        floor = -(self.hammer_length_m + BAR_BELOW_HEAD_M - 0.05)
-        room, printed = self.room(camera, seed, floor), self.printed(seed)
-        draw_bar(room, self.marks_m())
-        draw_stand(room, (0.0, 0.0), (-0.42, floor + 0.02))
-        draw_rail(room, bench, self.head_radius_m, floor)
-        half = self.block_half_width_m, self.block_half_height_m
-        hammer = Hammer(self.hammer_length_m, self.head_radius_m)
-        return Look(
-            background=room,
-            sprites={
-                "hammer": draw_hammer(hammer, camera.px_per_m, printed),
-                "block": draw_block(half, camera.px_per_m, printed),
-            },
-        )

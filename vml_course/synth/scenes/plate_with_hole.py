@@ -12,17 +12,10 @@ from vml_course.model.arrays import FloatArray
 from vml_course.model.camera import Camera
 from vml_course.model.quantity import quantity
 from vml_course.model.truth import Check
-from vml_course.synth.canvas import sheet
 from vml_course.synth.kirsch import Kirsch
-from vml_course.synth.props.dots import spray
-from vml_course.synth.props.rig import draw_back, draw_marks, draw_ruler
-from vml_course.synth.shapes import disc
 from vml_course.synth.sheet import Sheet
-from vml_course.synth.sprite import OVERSAMPLE, make_sprite
-from vml_course.synth.strained import StrainedLook
 
 RULER_M = 0.1
-BEYOND_M = 0.008  # how far the drawing goes on beyond the picture, for what comes in when the plate slides
 CONCENTRATION = 3.0
 FREE = 1e-9  # of the remote stress
 RIM = 720
@@ -112,21 +105,6 @@ class PlateWithHole(Sheet):
     def rigid_pose(self, load: FloatArray) -> FloatArray:
         """Return where the ruler lies, which is still."""
         return np.broadcast_to([*self.marks_m()["ruler_left"], 0.0], (len(load), 1, 3))
-
-    def look(self, camera: Camera, seed: int) -> StrainedLook:
-        """Draw the plate as far as the picture goes, and a bit farther."""
-        left, top = (camera.origin_x_px / camera.px_per_m, camera.origin_y_px / camera.px_per_m)
-        width, height = (size / camera.px_per_m for size in camera.size_px)
-        reach = left, width - left, height - top, top
-        on = sheet(tuple(part + BEYOND_M for part in reach), camera.px_per_m, OVERSAMPLE)  # type: ignore[arg-type]
-        plate = np.asarray(-disc(on, (0.0, 0.0), self.radius_m), np.float32)
-        spray(on, seed, plate, self.speckle_px, self.speckle)
-        draw_marks(on, self.points_m())
-        return StrainedLook(
-            background=draw_back(camera, seed),
-            sheet=make_sprite(on),
-            sprites={"ruler": draw_ruler(RULER_M, camera.px_per_m)},
-        )
 
 
 def _most(*values: FloatArray) -> float:

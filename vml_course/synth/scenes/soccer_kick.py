@@ -13,21 +13,14 @@ from vml_course.model.quantity import quantity
 from vml_course.synth.laws.pinned import PinnedStrike
 from vml_course.synth.laws.soft import SoftStrike, soften
 from vml_course.synth.laws.struck import Struck
-from vml_course.synth.look import Look
-from vml_course.synth.props.backgrounds import BACKGROUNDS
-from vml_course.synth.props.football import draw_football
-from vml_course.synth.props.gym import draw_tee, draw_thigh
-from vml_course.synth.props.leg import Leg, draw_leg
-from vml_course.synth.props.scale import draw_scale
 from vml_course.synth.scene import Marker
-from vml_course.synth.views import SideView
+from vml_course.synth.views import ROOMS, SideView
 
 KNEE_M = 0.09
 SHIN_M = 0.08
 SHIN_AT = 0.5  # of the way from knee to foot
 BAR_LEFT_M = -0.25
 BAR_BELOW_FOOT_M = 0.26
-FLOOR_ABOVE_BAR_M = 0.07
 
 
 @dataclass(frozen=True)
@@ -73,7 +66,7 @@ class SoccerKick(SideView):
     contact_ms: float = quantity(0.0, "ms", 0.0, 12.0, about="how long foot and ball touch; 0 is an instant")
 
     knee: str = choice("marked", ("marked", "plain"), about="a plain knee has nothing that could be tracked")
-    background: str = choice("gym", BACKGROUNDS, about="what is behind")
+    background: str = choice("gym", ROOMS, about="what is behind")
     scale: str = choice("bar", ("bar", "ball"), about="what to calibrate with: a bar, or the ball's own diameter")
 
     def __post_init__(self) -> None:
@@ -108,14 +101,15 @@ class SoccerKick(SideView):
 
     def marks_m(self) -> dict[str, tuple[float, float]]:
         """Return both ends of the 1 m bar on the floor, or of the resting ball's level diameter."""
-        height = self._floor_m
+        height = self.floor_m
         if self.scale == "bar":
             return {"bar_left": (BAR_LEFT_M, height), "bar_right": (BAR_LEFT_M + 1.0, height)}
         (x, y), radius = self.law().ball_m.tolist(), self.ball_diameter_m / 2
         return {"ball_left": (x - radius, y), "ball_right": (x + radius, y)}
 
     @property
-    def _floor_m(self) -> float:
+    def floor_m(self) -> float:
+        """The height of the bar on the floor."""
         return -(self.leg_length_m + BAR_BELOW_FOOT_M)
 
     def given(self) -> dict[str, float]:
@@ -125,20 +119,3 @@ class SoccerKick(SideView):
     def declared(self) -> dict[str, str | float | bool]:
         """Return which points are tracked."""
         return {"striker": "foot", "struck": "ball", "knee": "knee"}
-
-    def look(self, camera: Camera, seed: int) -> Look:
-        """Draw the gym, the leg and the ball."""
-        radius, printed = self.ball_diameter_m / 2, self.printed(seed)
-        leg = Leg(self.leg_length_m, self.foot_radius_m, KNEE_M, SHIN_M, SHIN_AT)
-        room = self.room(camera, seed, self._floor_m + FLOOR_ABOVE_BAR_M)
-        x, y = self.law().ball_m.tolist()
-        draw_tee(room, (x, y - radius), self._floor_m)
-        draw_scale(room, self.marks_m())
-        draw_thigh(room, seed)
-        return Look(
-            background=room,
-            sprites={
-                "leg": draw_leg(leg, camera.px_per_m, printed, plain_knee=self.knee == "plain"),
-                "ball": draw_football(radius, camera.px_per_m, printed),
-            },
-        )

@@ -11,9 +11,6 @@ from vml_course.errors import InputError
 from vml_course.model.camera import Camera
 from vml_course.model.quantity import quantity
 from vml_course.synth.laws.bounce import GroundBounce
-from vml_course.synth.look import Look
-from vml_course.synth.props.balls import draw_basketball
-from vml_course.synth.props.scale import draw_bar
 from vml_course.synth.scene import Marker
 from vml_course.synth.views import SideView
 
@@ -96,11 +93,3 @@ class SpinBounce(SideView):
     def declared(self) -> dict[str, str | float | bool]:
         """Return which points are tracked, and that the ball flies before the impact too."""
         return {"striker": "rim", "struck": "ball", "flight": "always"}
-
-    def look(self, camera: Camera, seed: int) -> Look:
-        """Draw the room and the ball."""
-        mark = (RIM_AT * self.ball_radius_m, 0.0)
-        ball = draw_basketball(self.ball_radius_m, camera.px_per_m, self.printed(seed), mark)
-        room = self.room(camera, seed, 0.0)
-        draw_bar(room, self.marks_m())
-        return Look(background=room, sprites={"ball": ball})

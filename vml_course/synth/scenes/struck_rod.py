@@ -10,14 +10,9 @@ from vml_course.errors import InputError
 from vml_course.model.camera import Camera
 from vml_course.model.quantity import quantity
 from vml_course.synth.laws.free import Free, FreeStrike
-from vml_course.synth.look import Look
-from vml_course.synth.props.balls import draw_puck
-from vml_course.synth.props.plank import draw_rod
-from vml_course.synth.props.scale import draw_bar
 from vml_course.synth.scene import Marker
 from vml_course.synth.views import TopView
 
-RED = (184.0, 62.0, 52.0)
 MARK_AT = 0.86  # of the way from the centre to an end
 
 
@@ -91,15 +86,3 @@ class StruckRod(TopView):
         """Return which points are tracked, that no gravity acts, and that nothing changes for a long time."""
         points: dict[str, str | float | bool] = {"striker": "tail", "striker_mark": "tip", "struck": "ball"}
         return points | {"flight": "never", "gravity_m_s2": 0.0, "window_s": 0.1}
-
-    def look(self, camera: Camera, seed: int) -> Look:
-        """Draw table, rod and puck."""
-        table, printed = self.floor(camera, seed), self.printed(seed)
-        draw_bar(table, self.marks_m())
-        height = MARK_AT * self.rod_length_m / 2
-        marks = (0.0, -height), (0.0, height)
-        rod = draw_rod(marks, self.rod_half_width_m, self.rod_length_m / 2, camera.px_per_m, printed)
-        return Look(
-            background=table,
-            sprites={"rod": rod, "ball": draw_puck(self.ball_radius_m, camera.px_per_m, printed, "3", RED)},
-        )

@@ -12,13 +12,8 @@ from vml_course.model.choice import choice
 from vml_course.model.quantity import quantity
 from vml_course.synth.laws.pinned import PinnedStrike
 from vml_course.synth.laws.struck import Struck
-from vml_course.synth.look import Look
-from vml_course.synth.props.floors import FLOORS
-from vml_course.synth.props.football import draw_football
-from vml_course.synth.props.plank import draw_door, draw_frame
-from vml_course.synth.props.scale import draw_bar
 from vml_course.synth.scene import Marker
-from vml_course.synth.views import TopView
+from vml_course.synth.views import FLOORS, TopView
 
 CARD_M = 0.05
 
@@ -94,17 +89,3 @@ class SwingingDoor(TopView):
         """Return which points are tracked, and that neither gravity nor a drive acts."""
         points: dict[str, str | float | bool] = {"striker": "edge", "struck": "ball", "knee": "hinge"}
         return points | {"flight": "never", "gravity_m_s2": 0.0, "drive": "none", "window_s": 0.08}
-
-    def look(self, camera: Camera, seed: int) -> Look:
-        """Draw the floor with the wall, the door and the ball."""
-        floor, printed = self.floor(camera, seed), self.printed(seed)
-        draw_bar(floor, self.marks_m())
-        draw_frame(floor, self.door_thickness_m / 2)
-        half = self.door_thickness_m / 2
-        return Look(
-            background=floor,
-            sprites={
-                "door": draw_door(self.door_length_m, half, CARD_M, camera.px_per_m, printed),
-                "ball": draw_football(self.ball_diameter_m / 2, camera.px_per_m, printed),
-            },
-        )

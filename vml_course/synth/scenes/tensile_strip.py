@@ -12,13 +12,7 @@ from vml_course.model.arrays import FloatArray
 from vml_course.model.camera import Camera
 from vml_course.model.quantity import quantity
 from vml_course.model.truth import Check
-from vml_course.synth.canvas import sheet
-from vml_course.synth.props.dots import spray
-from vml_course.synth.props.rig import draw_back, draw_grip, draw_marks, draw_ruler
-from vml_course.synth.shapes import box
 from vml_course.synth.sheet import Sheet
-from vml_course.synth.sprite import OVERSAMPLE, make_sprite
-from vml_course.synth.strained import StrainedLook
 
 GRIP_M = 0.018  # half the length of a grip
 HELD_M = 0.012  # of the strip, in each grip
@@ -96,23 +90,6 @@ class TensileStrip(Sheet):
         pose[:, 0, 0], pose[:, 1, 0] = -middle, middle + load * self.strain * self.length_m
         pose[:, 2, 0], pose[:, 2, 1] = x, y
         return pose
-
-    def look(self, camera: Camera, seed: int) -> StrainedLook:
-        """Draw the machine, the strip and its marks."""
-        half, wide = self.length_m / 2 + HELD_M, self.width_m / 2
-        on = sheet((half, half, wide, wide), camera.px_per_m, OVERSAMPLE)
-        spray(on, seed, box(on, (-half, -wide), (half, wide)), self.speckle_px, self.speckle)
-        draw_marks(on, self.points_m())
-        grip = GRIP_M, self.width_m / 2 + 0.006
-        return StrainedLook(
-            background=draw_back(camera, seed),
-            sheet=make_sprite(on),
-            sprites={
-                "left_grip": draw_grip(grip, camera.px_per_m, seed, 1.0),
-                "right_grip": draw_grip(grip, camera.px_per_m, seed, -1.0),
-                "ruler": draw_ruler(RULER_M, camera.px_per_m),
-            },
-        )
 
 
 def _extension(pair_m: FloatArray) -> FloatArray:

@@ -11,15 +11,10 @@ from vml_course.errors import InputError
 from vml_course.model.camera import Camera
 from vml_course.model.quantity import quantity
 from vml_course.synth.laws.free import Free, FreeStrike
-from vml_course.synth.look import Look
-from vml_course.synth.props.balls import draw_puck
-from vml_course.synth.props.scale import draw_bar
 from vml_course.synth.scene import Marker
 from vml_course.synth.views import TopView
 
-BLUE = (48.0, 94.0, 168.0)
 SLOWEST_M_S = 0.1
-RED = (184.0, 62.0, 52.0)
 
 
 @dataclass(frozen=True)
@@ -84,18 +79,6 @@ class TwoPucks(TopView):
         """Return which points are tracked, that no gravity acts, and that nothing changes for a long time."""
         points: dict[str, str | float | bool] = {"striker": "puck_a", "struck": "puck_b"}
         return points | {"flight": "never", "gravity_m_s2": 0.0, "window_s": 0.12}
-
-    def look(self, camera: Camera, seed: int) -> Look:
-        """Draw table and pucks."""
-        table, printed = self.floor(camera, seed), self.printed(seed)
-        draw_bar(table, self.marks_m())
-        return Look(
-            background=table,
-            sprites={
-                "puck_a": draw_puck(self.puck_a_radius_m, camera.px_per_m, printed, "1", BLUE),
-                "puck_b": draw_puck(self.puck_b_radius_m, camera.px_per_m, printed, "2", RED),
-            },
-        )
 
 
 def _puck(mass_kg: float, radius_m: float, velocity_m_s: tuple[float, float]) -> Free:
