@@ -50,13 +50,36 @@ def test_a_file_dropped_into_the_folder_is_a_scene(tmp_path):
         "    name: ClassVar[str] = 'toe_poke'\n"
         "    title: ClassVar[str] = 'A poke with the toe'\n"
     )
-    code = (
-        f"import vml_course.synth.scenes as s; s.__path__.append({str(tmp_path)!r})\n"
-        "from vml_course.cli import main; main(['render', '--help'])"
+    assert "A poke with the toe" in _vml_with(tmp_path, "render", "--help")
+    _vml_with(tmp_path, "render", "toe_poke", "-o", str(tmp_path / "film"), "--set", "fps=120")  # drawn as a kick is
+    assert (tmp_path / "film" / "video.mp4").is_file()
+
+
+def test_a_scenes_own_file_may_draw_it_too(tmp_path):
+    (tmp_path / "dark_poke.py").write_text(
+        "from dataclasses import dataclass\n"
+        "from typing import ClassVar\n"
+        "from vml_course.synth.looks import soccer_kick\n"
+        "from vml_course.synth.scenes.soccer_kick import SoccerKick\n"
+        "@dataclass(frozen=True)\n"
+        "class DarkPoke(SoccerKick):\n"
+        "    name: ClassVar[str] = 'dark_poke'\n"
+        "    title: ClassVar[str] = 'A poke in the dark'\n"
+        "def look(scene, camera, seed):\n"
+        "    print('drawn by its own file')\n"
+        "    return soccer_kick.look(scene, camera, seed)\n"
     )
-    shown = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert "A poke with the toe" in shown.stdout
-    assert "soccer_kick" in shown.stdout
+    film = ["render", "dark_poke", "-o", str(tmp_path / "film"), "--set", "fps=120"]
+    assert "drawn by its own file" in _vml_with(tmp_path, *film)
+
+
+def _vml_with(folder, *words: str) -> str:
+    """Run `vml` with the scenes of another folder beside its own."""
+    code = (
+        f"import vml_course.synth.scenes as s; s.__path__.append({str(folder)!r})\n"
+        f"from vml_course.cli import main; main({list(words)!r})"
+    )
+    return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
 
 
 def test_values_are_set_by_name_or_symbol_on_scene_camera_and_recording():

@@ -87,8 +87,8 @@ class Scene(AnyScene):
     """Base of all scenes with an impact: say the parameters, the physics, and what is tracked.
 
     To add one, write a file in `synth/scenes` with one subclass: a frozen dataclass with the class
-    attributes of `AnyScene` and those below, its fields by `quantity()`, and the abstract methods; and a file of the
-    scene's name in `synth/looks` that draws it.
+    attributes of `AnyScene` and those below, its fields by `quantity()`, and the abstract methods; and a function
+    `look(scene, camera, seed)` that draws it, there or in a file of the scene's name in `synth/looks` (`look.py`).
 
     Attributes
     ----------
