@@ -22,8 +22,8 @@ from openpyxl.worksheet.worksheet import Worksheet
 from assignments.sheets import META
 from assignments.words import symbol_text
 from grader.feedback import Line, Report, hints_of, line_of, standing_of, steps_of
+from grader.kind import Kind
 from grader.levels import levels_of
-from grader.model import Kind
 from grader.page import earned_text, points_text
 from grader.read.book import Book, Sheet
 from grader.read.sheet import BookCell, place_of

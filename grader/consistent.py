@@ -12,7 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from assignments.model import Assignment
-from grader.model import Kind, Submission
+from grader.kind import Kind
+from grader.model import Submission
 from grader.read.book import Book
 from grader.read.locate import find_beside
 from grader.stated import Stated, state

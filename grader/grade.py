@@ -13,7 +13,8 @@ from grader.checks import check_named
 from grader.diagnose import diagnose_answer, diagnose_factors, needs_diagnosis
 from grader.factors import find_factors
 from grader.hints import one_hint_a_cause, with_marks
-from grader.model import UNSURE_ABOUT, Asked, Diagnosis, Finding, Grade, Kind, Outcome, Submission
+from grader.kind import Kind
+from grader.model import UNSURE_ABOUT, Asked, Diagnosis, Finding, Grade, Outcome, Submission
 from grader.plausible import settle_readings
 from grader.reference import from_table
 

@@ -9,20 +9,9 @@ from enum import StrEnum
 import numpy as np
 
 from assignments.model import AnswerKey, Question
+from grader.kind import Kind
 from grader.tracked import FromTable
 from vml_course.model.arrays import FloatArray, set_frozen
-
-
-class Kind(StrEnum):
-    """What a cell holds."""
-
-    NUMBER = "number"
-    TEXT = "text"
-    BOOL = "bool"
-    DATE = "date"
-    ERROR = "error"
-    UNCACHED = "uncached"  # a formula that no program has worked out yet
-    BLANK = "blank"
 
 
 @dataclass(frozen=True)

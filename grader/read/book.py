@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Mapping
+import itertools
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from typing import Any
 
-from grader.model import Kind
+from grader.kind import Kind
 from grader.read import limits
 from grader.read.container import Container, open_container
 from grader.read.errors import SAVE_AS, RefusedError, UnreadableError
@@ -44,6 +46,19 @@ class Sheet:
             if top <= row <= bottom and left <= column <= right:
                 return self.cells.get((top, left), BookCell(Kind.BLANK))
         return BookCell(Kind.BLANK)
+
+    def __getstate__(self) -> dict[str, object]:
+        """Travel between processes as columns of plain values, not as thousands of cells: a third of the work."""
+        return {**self.__dict__, "cells": (tuple(_columns(self.cells)), tuple(_columns(self.cells.values())))}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        places, values = (_columns(columns) for columns in state["cells"])
+        self.__dict__.update(state, cells=dict(zip(places, itertools.starmap(BookCell, values), strict=True)))
+
+
+def _columns(rows: Iterable[tuple[object, ...]]) -> Iterator[tuple[Any, ...]]:
+    """Turn rows into columns, or columns into rows."""
+    return zip(*rows, strict=True)
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,8 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from assignments.model import Question
-from grader.model import Answer, Kind, Submission
+from grader.kind import Kind
+from grader.model import Answer, Submission
 from grader.read.book import Book, BookCell, Sheet
 from grader.read.errors import OUR_TEMPLATE, UnreadableError
 from grader.read.sheet import Place, address_of, place_of

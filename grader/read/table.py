@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from grader.model import Kind
+from grader.kind import Kind
 from grader.read.book import Book, BookCell, Sheet
 from grader.read.headings import Heading, match_points, read_headings
 from vml_course.errors import InputError

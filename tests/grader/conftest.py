@@ -18,7 +18,8 @@ from assignments.model import AnswerKey, Assignment, Variant
 from assignments.workbook import fill_workbook, write_workbook
 from grader.grade import grade
 from grader.model import Answer, Grade, Kind, Submission
-from grader.read import ReadRequest, find_submission, read_workbook
+from grader.read import ReadRequest, read_workbook
+from grader.read.locate import find_submission
 
 FPS, SCALE = 480.0, 500.0
 POINTS = ("foot", "knee", "ball")

@@ -15,8 +15,9 @@ from grader.annotated import FEEDBACK, annotated_workbook
 from grader.feedback import Report
 from grader.grade import grade
 from grader.model import Kind
-from grader.read import Book, BookCell, ReadRequest, UnreadableError, find_submission, read_workbook
+from grader.read import Book, BookCell, ReadRequest, UnreadableError, read_workbook
 from grader.read.book import Sheet
+from grader.read.locate import find_submission
 
 
 def opened(data: bytes) -> openpyxl.Workbook:

@@ -11,8 +11,8 @@ import pytest
 
 from grader.model import Answer, Kind, Outcome
 from grader.plausible import settle_readings
-from grader.read import ReadRequest, UnreadableError, claims_of, find_submission, read_workbook
-from grader.read.locate import find_beside
+from grader.read import ReadRequest, UnreadableError, read_workbook
+from grader.read.locate import claims_of, find_beside, find_submission
 from grader.read.sheet import _EPOCH, _date_text
 from grader.stated import Stated, Unstated, state
 
@@ -91,6 +91,17 @@ def test_a_name_is_cut_and_a_text_between_names_belongs_to_none():
     directory = corpus.members(data)["xl/workbook.xml"].replace(b"<definedNames>", b"<calcPr/>text<definedNames>")
     book = read_workbook(ReadRequest("w", corpus.with_parts(data, **{"xl/workbook.xml": directory})))
     assert set(book.names) == {"ans_e"}
+
+
+def test_a_copied_sheet_has_names_of_its_own_that_hide_none():
+    """A program that copies a sheet gives the copy the same names, for that sheet alone."""
+    data = corpus.Dialect().write({"Answers": [["e", 0.5]], "_meta": META})
+    directory = corpus.members(data)["xl/workbook.xml"]
+    own = b'<definedName name="ANS_E" localSheetId="1">Copy!$C$1</definedName>'
+    ours = b'<definedName name="ans_e">Answers!$B$1</definedName>'
+    for names in (own + ours, ours + own):
+        parts = {"xl/workbook.xml": directory.replace(b"<definedNames>", b"<definedNames>" + names)}
+        assert read_workbook(ReadRequest("w", corpus.with_parts(data, **parts))).names == {"ans_e": "Answers!$B$1"}
 
 
 def test_the_meta_sheet_says_its_version():

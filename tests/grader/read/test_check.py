@@ -10,8 +10,9 @@ import pytest
 
 from grader.consistent import _OF_FLAGS, remarks_on
 from grader.form import check_workbook
-from grader.read import ReadRequest, find_submission, read_workbook
+from grader.read import ReadRequest, read_workbook
 from grader.read.book import Book
+from grader.read.locate import find_submission
 from grader.template import template_cells
 from vml_course.cli import run
 

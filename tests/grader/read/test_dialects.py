@@ -14,7 +14,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from grader.model import Kind
-from grader.read import ReadRequest, UnreadableError, find_submission, read_workbook
+from grader.read import ReadRequest, UnreadableError, read_workbook
+from grader.read.locate import find_submission
 
 META = [["format", "1"], ["assignment", "soccer-kick"], ["variant_code", "CODE1"], ["signature", "signed"]]
 ANSWERS = [
@@ -74,12 +75,14 @@ def test_odd_values_of_other_programs(assignment):
         '<c r="I1"><v>1e999</v></c><c r="J1" t="b"><v>0</v></c><c r="K1" s="77"><v> 3 </v></c>'
         '<c r="L1" s="x"><v>4</v></c><c r="M1" vm="1"><v>5</v><extLst><ext/></extLst></c><c r="?"><v>6</v></c>'
         '<c r="P1" t="inlineStr"><is><t>a</t><rPh><t>no</t></rPh><t>b</t></is></c>'
+        '<c r="Q1" t="s"><v/></c><c r="R1" t="s"><f>X1</f></c><c r="T4"><v>7</v></c><c><v>8</v></c>'
     )
     data = corpus.Dialect().write({"s": [[1.0]]})
     sheet = f'<worksheet><sheetData><row r="x">{cells}</row></sheetData><f>stray</f></worksheet>'
     data = corpus.with_parts(data, **{"xl/worksheets/sheet1.xml": sheet.encode()})
     at = read_workbook(ReadRequest("w.xlsx", data)).sheets[0].at
-    read_cells = [(at((1, c)).kind.value, at((1, c)).text) for c in range(1, 17)]
+    read_cells = [(at((1, c)).kind.value, at((1, c)).text) for c in range(1, 19)]
+    assert [at((4, c)).text for c in (20, 21)] == ["7", "8"]  # the row that the cell itself names
     assert read_cells == [
         ("number", "1.5"),
         ("number", "2.5"),
@@ -97,6 +100,8 @@ def test_odd_values_of_other_programs(assignment):
         ("number", "6"),
         ("blank", ""),
         ("text", "ab"),
+        ("blank", ""),
+        ("uncached", ""),
     ]
 
 

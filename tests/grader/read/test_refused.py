@@ -8,7 +8,8 @@ import zlib
 import corpus
 import pytest
 
-from grader.read import ReadRequest, UnreadableError, claims_of, container, limits, markup, read_workbook
+from grader.read import ReadRequest, UnreadableError, container, limits, markup, read_workbook
+from grader.read.locate import claims_of
 
 
 def refusal(data: bytes) -> str:
@@ -116,5 +117,25 @@ def test_many_cells_over_several_sheets_are_refused(good_bytes, monkeypatch):
 def test_strange_names_do_not_grow_the_memory(monkeypatch):
     monkeypatch.setattr(limits, "XML_NAMES", 2)
     seen = []
-    markup.parse(b"<a><x:b xmlns:x='u'/><c/><d/><d/></a>", lambda name, _: seen.append(name))
-    assert seen == ["a", "b", "c", "d", "d"]
+    handlers = markup._ByName({"b": seen.append})
+    for name in ["a", "x:b", "y:b", "b", "c", "y:b"]:
+        handler = handlers[name]
+        if handler is not None:
+            handler(name)
+    assert seen == ["x:b", "y:b", "b", "y:b"]
+    assert len(handlers) == 2
+
+
+def test_more_elements_than_any_workbook_has_are_refused_before_they_are_read(work, monkeypatch):
+    monkeypatch.setattr(limits, "XML_ELEMENTS", 3)
+    markup.parse(b"<a><b></b><b/></a>", {})
+    read = work["parsed"]
+    with pytest.raises(container.RefusedError, match="far too many cells"):
+        markup.parse(b"<a><b></b><b/><b/></a>", {})
+    assert work["parsed"] == read
+
+
+def test_the_text_of_an_element_is_what_stands_in_it_alone():
+    said = []
+    markup.parse(b"<a>no<v>1&amp;2</v>no<w><v/>no</w><v>3</v></a>", {}, {"v": said.append})
+    assert said == ["1&2", "", "3"]
