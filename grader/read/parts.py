@@ -124,8 +124,8 @@ def read_formats(content: bytes) -> list[str]:
 
 
 def _format(number: str, codes: dict[str, str]) -> str:
-    if number in codes:
-        return codes[number]
+    if number in codes:  # LibreOffice gives the general format a number of its own
+        return "" if codes[number].lower() == "general" else codes[number]
     if number in {"9", "10"}:
         return "0%"
     return "date" if number.isascii() and number.isdigit() and int(number[:6]) in _BUILTIN_DATES else ""
@@ -138,8 +138,6 @@ def shows_date(code: str) -> bool:
     >>> shows_date("dd/mm/yyyy"), shows_date('0.00" days"'), shows_date("0.0E+00"), shows_date("[h]:mm")
     (True, False, False, True)
     """
-    if not code or code.lower() == "general":
-        return False
     bare = _NOT_LETTERS.sub("", code).lower().replace("general", "")
     return any(letter in bare for letter in "ymdhs")
 

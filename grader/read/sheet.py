@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import datetime as dt
+import decimal
 import functools
 import math
 import re
@@ -16,6 +17,7 @@ from grader.read.errors import OUR_TEMPLATE, RefusedError
 from grader.read.markup import Attributes, End, Start, parse
 from grader.read.parts import shows_date
 
+_FIFTEEN_DIGITS = decimal.Context(prec=15, rounding=decimal.ROUND_HALF_UP)
 _EPOCH = dt.datetime(1899, 12, 30)  # noqa: DTZ001 - days are counted without a zone
 _EPOCH_1904 = dt.datetime(1904, 1, 1)  # noqa: DTZ001
 
@@ -250,9 +252,12 @@ def _date_text(days: float, epoch: dt.datetime) -> str:
 
 
 def shortest(number: float) -> str:
-    """Return the shortest text of a number, without the noise of binary fractions.
+    """Return the shortest text of a number to 15 digits, without the noise of binary fractions.
 
-    >>> shortest(0.1 + 0.2), shortest(15.0)
-    ('0.3', '15')
+    Halves go away from zero, as LibreOffice has them when it saves: a number keeps its text there.
+
+    >>> shortest(0.1 + 0.2), shortest(15.0), shortest(0.1941003263435765)
+    ('0.3', '15', '0.194100326343577')
     """
-    return format(number + 0.0, ".15g")  # adding zero turns -0 into 0
+    kept = float(_FIFTEEN_DIGITS.create_decimal(repr(float(number))))
+    return format(kept + 0.0, ".15g")  # adding zero turns -0 into 0
