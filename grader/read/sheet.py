@@ -14,6 +14,7 @@ from typing import NamedTuple
 from grader.kind import Kind
 from grader.read import limits
 from grader.read.errors import OUR_TEMPLATE, RefusedError
+from grader.read.flags import Flag
 from grader.read.markup import Attributes, End, Start, parse
 from grader.read.parts import shows_date
 
@@ -49,7 +50,7 @@ class SheetContent:
 
     cells: dict[Place, BookCell] = field(default_factory=dict)
     merges: list[tuple[int, int, int, int]] = field(default_factory=list)
-    flags: set[str] = field(default_factory=set)
+    flags: set[Flag] = field(default_factory=set)
 
 
 def place_of(reference: str) -> Place | None:
@@ -188,10 +189,10 @@ class _SheetReader:
         if not written and formula is None:
             return  # a style only
         if self._row > limits.ROWS or self._column > limits.COLUMNS:
-            self.sheet.flags.add("far-cells")
+            self.sheet.flags.add(Flag.FAR_CELLS)
             return
         if formula and "!" in formula and _OTHER_WORKBOOK.search(formula[: limits.CELL_LENGTH]):
-            self.sheet.flags.add("formula-to-other-workbook")
+            self.sheet.flags.add(Flag.FORMULA_TO_OTHER_WORKBOOK)
         cell = self._cell(written, is_formula=formula is not None)
         cells = self.sheet.cells
         if cell is not None:
