@@ -169,6 +169,17 @@ def test_a_process_that_cannot_start_is_our_failure():
         reader.read(ReadRequest("w.xlsx", b"x"))
 
 
+def test_only_the_process_that_started_a_reader_ends_it(good_bytes):
+    """A forked child would end its parent's."""
+    with Reader() as reader:
+        reader.read(ReadRequest("w.xlsx", good_bytes))
+        process = reader._process
+        worker_module._close_own(reader, os.getpid() + 1)
+        assert process.poll() is None
+        worker_module._close_own(reader, os.getpid())
+        assert process.poll() is not None
+
+
 class Stranger:
     def __reduce__(self):
         return print, ("run",)
