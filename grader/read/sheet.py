@@ -142,7 +142,8 @@ class _SheetReader:
     def __init__(self, strings: Sequence[str], formats: Sequence[str], epoch: dt.datetime) -> None:
         self.sheet = SheetContent()
         self._strings, self._styles, self._epoch = strings, _Styles(formats), epoch
-        self._row, self._column, self._row_text = 0, 0, ""
+        self._row, self._column = 0, 0
+        self._line, self._line_text = 0, ""  # the row element that we are in; a cell may name another row
         self._attributes: Attributes = {}
         self._value = ""
         self._formula: str | None = None
@@ -159,16 +160,16 @@ class _SheetReader:
     def _start_row(self, attributes: Attributes) -> None:
         number = attributes.get("r", "")
         is_number = number.isascii() and number.isdigit() and len(number) <= 7
-        self._row, self._row_text = (int(number), number) if is_number else (self._row + 1, "")
-        self._column = 0
+        self._line, self._line_text = (int(number), number) if is_number else (self._row + 1, "")
+        self._row, self._column = self._line, 0
 
     def _start_cell(self, attributes: Attributes) -> None:
         self._attributes, self._value, self._formula = attributes, "", None
         self._runs.clear()
         reference = attributes.get("r", "")
-        column = _COLUMNS.get(reference.removesuffix(self._row_text))
+        column = _COLUMNS.get(reference.removesuffix(self._line_text))
         if column is not None:
-            self._column = column
+            self._row, self._column = self._line, column
         else:
             self._row, self._column = place_of(reference) or (self._row, self._column + 1)
 

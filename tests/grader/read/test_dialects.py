@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 
 from grader.model import Kind
 from grader.read import ReadRequest, UnreadableError, limits, read_workbook
+from grader.read.flags import Flag
 from grader.read.locate import find_submission
 from grader.read.sheet import read_sheet
 
@@ -106,6 +107,15 @@ def test_odd_values_of_other_programs(assignment):
         ("uncached", ""),
         ("blank", ""),
     ]
+
+
+def test_a_cell_stands_where_it_says_whatever_row_it_is_in():
+    cells = '<row r="2"><c r="B7"><v>1</v></c><c r="C2"><v>2</v></c><c><v>3</v></c><c r="$E$2"><v>4</v></c></row>'
+    cells += '<row><c r="A1"><v>5</v></c></row><row r="2"><c r="a2"><v>6</v></c><c r="IW2"><v>7</v></c></row>'
+    sheet = read_sheet(f"<worksheet><sheetData>{cells}</sheetData></worksheet>".encode(), [], [])
+    places = {place: cell.number for place, cell in sheet.cells.items()}
+    assert places == {(7, 2): 1, (2, 3): 2, (2, 4): 3, (2, 5): 4, (1, 1): 5, (2, 1): 6}
+    assert sheet.flags == {Flag.FAR_CELLS}
 
 
 def test_more_styles_than_are_remembered_are_read_alike(monkeypatch):
