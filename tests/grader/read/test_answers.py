@@ -214,6 +214,20 @@ def settled(assignment, question, text, truth=None, unit=""):
         ("v_f1", "9,703 and 1,234", None, ""),
         ("v_f1", "15,5", None, ""),
         ("v_f1", "9,703 quux", None, ""),
+        ("v_f1", "1,234 km/h", {"v_f1": 0.4}, "1.234 km/h"),
+        ("px_per_m", "1,500", {"px_per_m": 50.0}, "1500"),  # thirty times is the farthest
+        ("px_per_m", "1,501", {"px_per_m": 50.0}, ""),
+        ("px_per_m", "1,500", {"px_per_m": 45000.0}, "1500"),
+        ("px_per_m", "1,499", {"px_per_m": 45000.0}, ""),
+        ("px_per_m", "1,234", {"px_per_m": float("nan")}, ""),
+        ("px_per_m", "1,234", {"fps": 1200.0}, ""),
+        ("omega1", "-9,703", {"omega1": 9.0}, "-9.703"),
+        ("omega1", "-1,000", None, ""),  # both can be
+        ("omega1", "1,001", None, "1.001"),
+        ("v_f1", "300,000", None, "300.000"),
+        ("v_f1", "9.703", None, ""),
+        ("v_f1", "9703,123", None, ""),
+        ("v_f1", "0,703", None, ""),
     ],
 )
 def test_a_comma_is_settled_where_one_reading_alone_is_plausible(assignment, question, text, truth, read_as):

@@ -64,6 +64,56 @@ def test_another_format_is_named_for_what_it_is(good_bytes, name):
     assert words in refusal(make(good_bytes))
 
 
+WHAT_TO_DO = {
+    "nothing": "hand it in again",
+    "password": "Remove the password",
+    "old .doc": "the workbook that came with your video",
+    "docx": "the workbook that came with your video",
+    "pptx": "the workbook that came with your video",
+    "numbers": "Export To",
+    **dict.fromkeys(("zip of no workbook", "zip of two workbooks"), "not packed"),
+    **dict.fromkeys(("zip in a zip", "zip in a zip, named so"), "not packed"),
+    **dict.fromkeys(("half an upload", "the tail cut off"), "save it again"),
+    "a shortcut of a cloud drive": "File, Download",
+}
+
+
+@pytest.mark.parametrize("name", corpus.OTHER_FORMATS)
+def test_another_format_is_told_what_to_do(good_bytes, name):
+    with pytest.raises(UnreadableError) as caught:
+        read_workbook(ReadRequest("w.xlsx", corpus.OTHER_FORMATS[name][0](good_bytes)))
+    assert WHAT_TO_DO.get(name, "File, Save As, Excel Workbook (.xlsx)") in caught.value.hint
+
+
+@pytest.mark.parametrize(
+    ("data", "words"),
+    [
+        (b"\x89PNG", "a picture (PNG)"),
+        (b"\xff\xd8\xff", "a picture (JPEG)"),
+        (b"GIF89a", "a picture (GIF)"),
+        (b"7z\xbc\xaf", "a 7z archive"),
+        (b"\x1f\x8b", "a gzip archive"),
+        (b"{\\rtf1", "a text document (RTF)"),
+        (b"ID3", "a sound file"),
+        (b"RIFF....AVI ", "a video"),
+        (b"....ftyp", "a video"),
+        (b"...ftyp.", "unknown kind"),
+        (b" \t\r\n<HTML>", "a web page"),
+        (b"<table>", "a web page"),
+        (b"{'url': 1}", "unknown kind"),
+        (b"doc_id", "unknown kind"),
+        (b"\xfe\xff\0a\0;", "CSV"),
+        (b"\xff\xfea\0;\0", "CSV"),
+        (b"a\0;", "unknown kind"),
+        (b"a" * 4095 + b";", "CSV"),
+        (b"a" * 4096 + b";", "unknown kind"),
+        (b"PK\x05\x06", "incomplete upload"),
+    ],
+)
+def test_a_file_is_known_by_its_first_bytes(data, words):
+    assert words in refusal(data)
+
+
 @pytest.mark.parametrize("folder", ["", "Doe Jane_4711_assignsubmission_file/"])
 def test_one_workbook_in_a_zip_is_unwrapped_once(good_bytes, folder):
     data = corpus.pack({f"{folder}w.xlsx": good_bytes, "__MACOSX/._w.xlsx": b"x", "notes.txt": b"x"})
