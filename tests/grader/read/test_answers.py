@@ -48,6 +48,12 @@ def test_different_answers_under_one_label_are_left_to_a_person(assignment):
     assert stated.reason.startswith("Several cells carry this label (Answers!B1, Answers!B3)")
 
 
+def test_of_many_different_answers_the_first_four_are_shown(assignment):
+    found = answer_of(assignment, [[LABEL, number, "m"] for number in (1, 2, 3, 4, 5)])
+    assert (found.text, found.unit_text, found.number) == ("1, 2, 3, 4", "", None)
+    assert found.where == "Answers!B1, Answers!B2, Answers!B3, Answers!B4"
+
+
 def test_the_symbol_decides_where_the_label_stands_twice(assignment):
     found = answer_of(assignment, [[LABEL, 0.73], [LABEL, 0.5], ["e", 0.6]])
     assert found.number == 0.6

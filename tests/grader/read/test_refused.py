@@ -58,6 +58,19 @@ def test_a_hostile_file_is_refused_before_much_work_is_done(good_bytes, work, na
     assert work["parsed"] < 2**18
 
 
+AGAIN = ("header lies", "a sheet twice", "401 entries", "an entry inside")  # damaged on the way
+TOO_MANY_PARTS = ("1000 parts",)
+
+
+@pytest.mark.filterwarnings("ignore:Duplicate name")
+@pytest.mark.parametrize("name", corpus.HOSTILE)
+def test_a_hostile_file_is_told_what_to_do(good_bytes, name):
+    with pytest.raises(UnreadableError) as caught:
+        read_workbook(ReadRequest("w.xlsx", corpus.HOSTILE[name][0](good_bytes)))
+    words = "save it again" if name.startswith(AGAIN) else "File, Save As" if name in TOO_MANY_PARTS else "Type your"
+    assert words in caught.value.hint
+
+
 @pytest.mark.parametrize("name", corpus.OTHER_FORMATS)
 def test_another_format_is_named_for_what_it_is(good_bytes, name):
     make, words = corpus.OTHER_FORMATS[name]
