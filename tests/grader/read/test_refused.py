@@ -124,7 +124,11 @@ def test_another_format_is_told_what_to_do(good_bytes, name):
     ],
 )
 def test_a_file_is_known_by_its_first_bytes(data, words):
-    assert words in refusal(data)
+    with pytest.raises(UnreadableError) as caught:
+        read_workbook(ReadRequest("w.xlsx", data))
+    assert words in caught.value.got
+    what_to_do = {"a video": "Hand in the workbook, not the video", "incomplete upload": "save it again"}
+    assert what_to_do.get(words, "File, Save As, Excel Workbook (.xlsx)") in caught.value.hint
 
 
 @pytest.mark.parametrize("folder", ["", "Doe Jane_4711_assignsubmission_file/"])
