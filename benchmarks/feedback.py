@@ -28,7 +28,8 @@ from grader.frame import impact_frame
 from grader.grade import grade
 from grader.gradebook import Row, Student
 from grader.items import evidence_of
-from grader.read import ReadRequest, find_submission, read_isolated, read_workbook
+from grader.read import ReadRequest, read_isolated, read_workbook
+from grader.read.locate import find_submission
 from vml_course.io.shelf import FolderShelf
 
 SECRET = bytes(range(32))

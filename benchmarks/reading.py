@@ -81,18 +81,23 @@ def lean_openpyxl(data: bytes) -> None:
 
 def speed(count: int) -> None:
     files = [typical(seed) for seed in range(count)]
+    peers = files[: max(count // 8, 1)]
+    other = [cpu_s(lambda data=data: lean_openpyxl(data)) for data in peers]
     plain = [cpu_s(lambda data=data: read_workbook(ReadRequest("w.xlsx", data))) for data in files]
-    other = [cpu_s(lambda data=data: lean_openpyxl(data)) for data in files[: max(count // 4, 1)]]
     before = children_s()
     with Reader() as reader:
-        parent = cpu_s(lambda: [reader.read(ReadRequest("w.xlsx", data)) for data in files])
+        parent = sum(cpu_s(lambda data=data: reader.read(ReadRequest("w.xlsx", data))) for data in files)
     whole = (parent + children_s() - before) / count
+    other += [cpu_s(lambda data=data: lean_openpyxl(data)) for data in peers]
+    peer = statistics.median(other)
     print(f"{count} typical workbooks of {statistics.mean(map(len, files)) / 1000:.0f} kB, processor seconds a file")
-    print(f"  in this process        {statistics.median(plain):.4f}")
-    print(f"  isolated, all counted  {whole:.4f}   = {1 / whole:.1f} a second (target {TARGET_FILES_PER_S:g})")
-    idle = IDLE_OPENPYXL_S / statistics.median(other)
-    print(f"  openpyxl, lean         {statistics.median(other):.4f}   = {idle:.2f} of idle speed")
-    print(f"  at idle speed          {whole * idle:.4f}   = {1 / (whole * idle):.1f} a second")
+    here = statistics.median(plain)
+    print(f"  in this process        {here:.4f}   = {here / peer:.2f} of openpyxl's")
+    print(f"  isolated, all counted  {whole:.4f}   = {whole / peer:.2f} of openpyxl's")
+    print(f"                                  = {1 / whole:.1f} a second (target {TARGET_FILES_PER_S:g})")
+    print(f"  openpyxl, lean         {peer:.4f}   = {IDLE_OPENPYXL_S / peer:.2f} of idle speed")
+    at_idle = whole * IDLE_OPENPYXL_S / peer
+    print(f"  at idle speed          {at_idle:.4f}   = {1 / at_idle:.1f} a second")
 
 
 def refusals(good: bytes) -> None:

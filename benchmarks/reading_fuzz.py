@@ -19,7 +19,8 @@ from collections import Counter
 from pathlib import Path
 
 from assignments.load import load_assignment
-from grader.read import ReadRequest, UnreadableError, find_submission, read_workbook
+from grader.read import ReadRequest, UnreadableError, read_workbook
+from grader.read.locate import find_submission
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests/grader/read"))
 import corpus

@@ -7,8 +7,10 @@ anybody's hands. The copy carries no variant code and cannot be handed in by mis
 from __future__ import annotations
 
 import io
+import itertools
 import math
 import re
+import textwrap
 from collections.abc import Iterable, Mapping, Sequence
 
 from openpyxl import Workbook
@@ -22,8 +24,8 @@ from openpyxl.worksheet.worksheet import Worksheet
 from assignments.sheets import META
 from assignments.words import symbol_text
 from grader.feedback import Line, Report, hints_of, line_of, standing_of, steps_of
+from grader.kind import Kind
 from grader.levels import levels_of
-from grader.model import Kind
 from grader.page import earned_text, points_text
 from grader.read.book import Book, Sheet
 from grader.read.sheet import BookCell, place_of
@@ -34,7 +36,8 @@ _AUTHOR = "Feedback"
 _CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
 _NO_TITLE = re.compile(r"[\[\]:*?/\\]")
 _PLAIN_FORMAT = re.compile(r"[0#?.,%E+\- ]{1,30}")
-_WIDEST, _MOST_MERGES = 50.0, 500
+_WIDEST, _MOST_MERGES, _MOST_LINES = 50.0, 500, 20
+_COLUMN_WIDTHS, _LINE_HEIGHT = (44, 22, 22, 14, 14, 12, 70), 15.0  # of the sheet of feedback: characters, points
 
 _TITLE, _BOLD = Font(name="Calibri", size=16, bold=True), Font(name="Calibri", bold=True)
 _TOP = Alignment(vertical="top", wrap_text=True)
@@ -85,8 +88,13 @@ def _write_feedback(sheet: Worksheet, report: Report, lines: Mapping[str, Line])
     for place in range(row + 2, last):
         outcome = list(lines.values())[place - row - 2].verdict.outcome
         sheet.cell(place, 4).fill = _FILLS[outcome]
-    for column, width in enumerate((44, 22, 22, 14, 14, 12, 70), start=1):
+    for column, width in enumerate(_COLUMN_WIDTHS, start=1):
         sheet.column_dimensions[get_column_letter(column)].width = width
+    _print_across(sheet)
+
+
+def _print_across(sheet: Worksheet) -> None:
+    """Print all columns on one landscape page's width."""
     sheet.page_setup.orientation, sheet.page_setup.fitToWidth, sheet.page_setup.fitToHeight = "landscape", 1, 0
     sheet.sheet_properties.pageSetUpPr = PageSetupProperties(fitToPage=True)
 
@@ -99,7 +107,7 @@ def _summary(report: Report) -> list[str]:
         f"{report.key.student}, attempt {report.attempt}: {points} of {points_text(counts.out_of)} points",
         *(f"Decided by a person: {text}" for text in report.adjustments),
         *standing_of(report).sentences,
-        *(f"{_plain(cells)}: {hint}" for cells, hint in hints_of(report)),
+        *(f"Where to look, {_plain(cells)}: {hint}" for cells, hint in hints_of(report)),
         "This copy is for reading: it holds values only. Go on working in your own workbook, and hand that one in.",
     ]
 
@@ -147,7 +155,13 @@ def _write_table(sheet: Worksheet, row: int, table: Sequence[Sequence[str]]) -> 
             cell.alignment = _TOP
             if at == 0:
                 cell.font = _BOLD
+        sheet.row_dimensions[row + at].height = _LINE_HEIGHT * max(map(_lines_of, line, _COLUMN_WIDTHS))
     return row + len(table)
+
+
+def _lines_of(text: str, width: float) -> int:
+    """Return how many lines a text takes in a column so wide: not every program finds the height of a row itself."""
+    return sum(max(len(textwrap.wrap(line, int(width))), 1) for line in text.split("\n"))
 
 
 # ---------------------------------------------------------------- what was read
@@ -159,11 +173,16 @@ def _copied(made: Workbook, sheet: Sheet) -> Worksheet:
     widths: dict[int, int] = {}
     for (row, column), cell in sheet.cells.items():
         _write_cell(copy, row, column, cell)
-        widths[column] = max(widths.get(column, 0), len(cell.text))
+        if "\n" in cell.text:
+            copy.row_dimensions[row].height = _LINE_HEIGHT * min(cell.text.count("\n") + 1, _MOST_LINES)
+        if cell.kind is not Kind.TEXT or (row, column + 1) in sheet.cells:  # else it runs on over empty cells
+            widths[column] = max(widths.get(column, 0), len(cell.text))
     for column, width in widths.items():
         copy.column_dimensions[get_column_letter(column)].width = min(max(width + 2.0, 9.0), _WIDEST)
-    for top, left, bottom, right in sheet.merges[:_MOST_MERGES]:
+    several = (merge for merge in sheet.merges if merge[0] < merge[2])  # in one row texts run on as they do merged
+    for top, left, bottom, right in itertools.islice(several, _MOST_MERGES):
         copy.merge_cells(start_row=top, start_column=left, end_row=bottom, end_column=right)
+    _print_across(copy)
     return copy
 
 

@@ -21,7 +21,8 @@ from grader.gradebook import Gradebook
 from grader.inbox import LARGEST_BYTES, keep
 from grader.lms import AUTO, recognise
 from grader.lms.named import Named
-from grader.read import ReadRequest, claims_of, read_isolated
+from grader.read import ReadRequest, read_isolated
+from grader.read.locate import claims_of
 from grader.receipts import Arrived, handed_in_at
 from grader.signed import is_signed
 from vml_course.errors import FileMissingError, VmlError

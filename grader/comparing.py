@@ -12,7 +12,8 @@ from grader.findings import Newest, add_findings, brought_by_another, findings_o
 from grader.gradebook import Gradebook
 from grader.inbox import kept_name
 from grader.integrity import Evidence, HandedIn, compare
-from grader.read import ReadRequest, find_submission, read_isolated
+from grader.read import ReadRequest, read_isolated
+from grader.read.locate import find_submission
 from grader.template import template_cells
 from vml_course.errors import VmlError
 

@@ -12,9 +12,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from assignments.model import Assignment
-from grader.model import Kind, Submission
+from grader.flags import FOR_STUDENT
+from grader.kind import Kind
+from grader.model import Submission
 from grader.read.book import Book
 from grader.read.locate import find_beside
+from grader.read.table import other_points
 from grader.stated import Stated, state
 from vml_course.model.arrays import FloatArray
 
@@ -35,21 +38,6 @@ _PIVOT, _END = "knee", "foot"
 _LEAST_ROWS = 10
 _RATE_APART, _SCALE_APART, _ARM_APART = 0.01, 0.02, 0.1
 
-_OF_FLAGS = {
-    "text-in-tracking": "Some cells of the tracking table hold text; they count as empty.",
-    "dates-in-tracking": "Some cells of the tracking table are dates; set their format to Number and paste again.",
-    "errors-in-tracking": "Some cells of the tracking table end in an error; they count as empty.",
-    "uncached-in-tracking": "Formulas of the tracking table were never worked out: open the workbook in Excel, press "
-    "Ctrl+Alt+F9 and save.",
-    "columns-twice": "Two columns of the tracking table are called the same and differ; the first one counts.",
-    "hidden-sheet": "A hidden sheet is not read.",
-    "far-cells": "Cells far to the right or below are not read.",
-    "links": "The workbook refers to another one; a person will see that.",
-    "formula-to-other-workbook": "A formula refers to another workbook; a person will see that.",
-    "macros": "The workbook holds macros; they are not run, and a person will see that.",
-    "zipped": "The workbook came packed; hand it in unpacked.",
-}
-
 
 @dataclass(frozen=True)
 class _Told:
@@ -67,7 +55,7 @@ def remarks_on(book: Book, submission: Submission, assignment: Assignment) -> It
     values = {name: s.value for name, s in stated.items() if isinstance(s, Stated) and not s.in_pixels}
     given = {g.id: number for g in assignment.givens if (number := find_beside(book, g.label)) is not None}
     told = _Told(values, given, submission.tracking, {q.id: q.symbol for q in assignment.questions})
-    yield from (_OF_FLAGS[flag] for flag in submission.flags if flag in _OF_FLAGS)
+    yield from (FOR_STUDENT[flag] for flag in submission.flags)
     yield from _unusual(told, assignment)
     yield from _of_table(told, assignment)
     yield from _rate(told)
@@ -92,7 +80,7 @@ def _of_table(told: _Told, assignment: Assignment) -> Iterator[str]:
         return
     missing = [p for p in assignment.points if f"{p}_x_m" not in told.table]
     if missing:
-        others = sorted({name[:-4] for name in told.table if name.endswith("_x_m")} - set(assignment.points))
+        others = other_points(told.table, assignment.points)
         asked = f"; which of them is {', '.join(others)}?" if others else "."
         yield f"The table has no positions in metres called {', '.join(missing)}{asked} Name columns {missing[0]}_x_m."
     rows = len(next(iter(told.table.values())))

@@ -9,10 +9,12 @@ from pathlib import Path
 from assignments.load import load_assignment
 from assignments.model import Assignment
 from grader.consistent import remarks_on
-from grader.model import Kind, Submission
+from grader.kind import Kind
+from grader.model import Submission
 from grader.plausible import settle_readings
-from grader.read import ReadRequest, claims_of, find_submission, read_workbook
-from grader.read.locate import Claims
+from grader.read import ReadRequest, read_workbook
+from grader.read.flags import Flag
+from grader.read.locate import Claims, claims_of, find_submission
 from grader.stated import Unstated, state
 from grader.template import template_cells
 from vml_course.io.files import existing
@@ -42,7 +44,7 @@ class CheckResult:
     assignment_id: str
     answers: tuple[Checked, ...]
     tracking_rows: int
-    flags: tuple[str, ...]
+    flags: tuple[Flag, ...]
     remarks: tuple[str, ...] = ()
     is_practice: bool = False
 

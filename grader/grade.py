@@ -12,23 +12,18 @@ from assignments.words import symbol_text
 from grader.checks import check_named
 from grader.diagnose import diagnose_answer, diagnose_factors, needs_diagnosis
 from grader.factors import find_factors
+from grader.flags import FOR_PERSON, FOR_PERSON_OF_TABLE
 from grader.hints import one_hint_a_cause, with_marks
-from grader.model import UNSURE_ABOUT, Asked, Diagnosis, Finding, Grade, Kind, Outcome, Submission
+from grader.kind import Kind
+from grader.model import UNSURE_ABOUT, Asked, Diagnosis, Finding, Grade, Outcome, Submission
 from grader.plausible import settle_readings
 from grader.reference import from_table
 
-GRADER_VERSION = "3"
+GRADER_VERSION = "4"
 """Goes into every run; raise it when the same submission could get other points."""
 
 TRACKING = Question("tracking", "Tracking table", "", "number", "", 0.0, "tracking", 0.0, "measurement")
 """The question behind the tracking table, for an assignment that gives it no points of its own."""
-
-_FLAGS = {
-    "macros": "The workbook carries macros.",
-    "links": "The workbook has links to other files.",
-    "formula-to-other-workbook": "A formula points to another workbook.",
-    "hidden-sheet": "The workbook has a hidden sheet that is not ours.",
-}
 
 
 @dataclass(frozen=True)
@@ -148,7 +143,9 @@ def _reasons(submission: Submission, assignment: Assignment, findings: Iterable[
     """Say why a person should look, one sentence each."""
     if submission.assignment_id != assignment.id:
         yield f"The workbook says that it belongs to {submission.assignment_id[:40]!r}."
-    yield from (_FLAGS[flag] for flag in submission.flags if flag in _FLAGS)
+    is_right = any(f.aspect == "table" and f.outcome is Outcome.RIGHT for f in findings)
+    words = FOR_PERSON if is_right else {**FOR_PERSON, **FOR_PERSON_OF_TABLE}
+    yield from (words[flag] for flag in submission.flags if flag in words)
     symbols = {question.id: symbol_text(question.symbol) for question in assignment.questions}
     unsure = dict.fromkeys(symbols.get(f.question_id, f.question_id) for f in findings if f.outcome is Outcome.UNSURE)
     if unsure:

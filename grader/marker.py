@@ -26,8 +26,8 @@ from grader.gradebook import Gradebook, Row
 from grader.inbox import keep, kept_name, received_bytes
 from grader.marking import Marked, MarkOrder, ReadOrder, Understood, mark, understand
 from grader.model import Grade
-from grader.read import Book, claims_of
-from grader.read.locate import Claims
+from grader.read import Book
+from grader.read.locate import Claims, claims_of
 from grader.receipts import Arrived, Receipt, handed_in_at
 from grader.signed import is_signed
 from vml_course.errors import VmlError

@@ -14,8 +14,8 @@ from assignments.model import AnswerKey, Assignment
 from grader.grade import grade
 from grader.model import Grade, Submission
 from grader.plausible import settle_readings
-from grader.read import Book, ReadRequest, claims_of, find_submission, read_isolated
-from grader.read.locate import Claims
+from grader.read import Book, ReadRequest, read_isolated
+from grader.read.locate import Claims, claims_of, find_submission
 from grader.template import template_cells
 
 

@@ -9,20 +9,10 @@ from enum import StrEnum
 import numpy as np
 
 from assignments.model import AnswerKey, Question
+from grader.kind import Kind
+from grader.read.flags import Flag
 from grader.tracked import FromTable
 from vml_course.model.arrays import FloatArray, set_frozen
-
-
-class Kind(StrEnum):
-    """What a cell holds."""
-
-    NUMBER = "number"
-    TEXT = "text"
-    BOOL = "bool"
-    DATE = "date"
-    ERROR = "error"
-    UNCACHED = "uncached"  # a formula that no program has worked out yet
-    BLANK = "blank"
 
 
 @dataclass(frozen=True)
@@ -69,8 +59,8 @@ class Submission:
         By question id.
     tracking : mapping of str to float array, shape (n,)
         Columns of the tracking table by their heading; NaN where empty.
-    flags : tuple of str
-        What a person should know: `macros`, `links`, `far-cells`, `hidden-sheet` ...
+    flags : tuple of Flag
+        What a person should know.
     file_sha256, content_sha256 : str
         Of the bytes, and of the answers and the table alone.
     """
@@ -80,7 +70,7 @@ class Submission:
     code: str
     answers: Mapping[str, Answer]
     tracking: Mapping[str, FloatArray]
-    flags: tuple[str, ...] = ()
+    flags: tuple[Flag, ...] = ()
     file_sha256: str = ""
     content_sha256: str = ""
 

@@ -12,7 +12,8 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 from assignments.model import Question
-from grader.model import Answer, Kind, Submission
+from grader.kind import Kind
+from grader.model import Answer, Submission
 from grader.stated import Stated, state
 
 FACTOR = 30.0

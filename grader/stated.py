@@ -6,7 +6,8 @@ import re
 from dataclasses import dataclass
 
 from assignments.model import Question
-from grader.model import Answer, Kind, Outcome
+from grader.kind import Kind
+from grader.model import Answer, Outcome
 from grader.read.locate import SEVERAL
 from vml_course.errors import AmbiguousNumberError, InputError, UncalibratedUnitError
 from vml_course.model.reading import UNITS, Reading, read_number, read_quantity

@@ -53,6 +53,8 @@ def _held(asked: Asked, finding: Finding, half_width: float) -> Finding:
 def _why_unsupported(asked: Asked, value: float, half_width: float) -> str:
     table, found = asked.table, asked.table.values.get(asked.question.id)
     if table.fit is None:
+        if asked.submission.tracking:
+            return "your tracking table cannot be compared with your video"
         return "there is no tracking table that it could come from"
     if not table.is_near:
         return "your tracking table does not follow your video"

@@ -23,8 +23,9 @@ from grader.effective import Effective, effective
 from grader.grade import grade
 from grader.model import Grade, Submission
 from grader.plausible import settle_readings
-from grader.read import Book, ReadRequest, UnreadableError, claims_of, find_submission, read_isolated
+from grader.read import Book, ReadRequest, UnreadableError, read_isolated
 from grader.read.limits import FILE_BYTES
+from grader.read.locate import claims_of, find_submission
 from grader.template import template_cells
 from vml_course.io.files import replacing
 

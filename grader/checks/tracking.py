@@ -6,13 +6,19 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from grader.flags import FOR_PERSON_OF_TABLE, FOR_STUDENT
 from grader.model import Asked, Finding, Outcome
+from grader.read.flags import Flag
+from grader.read.table import other_points
 from grader.smoothed import smoothing_of
 from grader.trajectory import TrajectoryFit
 
 GOOD_PX = 1.0  # what a careful hand reaches; correlation tracking is twenty times better
 POOR_PX = 4.0
 _RATE_APART = 0.02
+_NO_TABLE = "There is no tracking table with ten rows or more to compare. The sheet Tracking says how to paste yours."
+_MOST_NAMES = 5
+_OF_CELLS = FOR_PERSON_OF_TABLE.keys() - {Flag.UNNAMED_POINTS}  # of the names more is said
 
 
 def tracking(asked: Asked) -> tuple[Finding, ...]:
@@ -22,18 +28,41 @@ def tracking(asked: Asked) -> tuple[Finding, ...]:
     """
     fit = asked.table.fit
     points, at = asked.question.points, asked.question.id
+    names = _names(asked)
     if fit is None:
-        message = "There is no tracking table with ten rows or more to compare."
-        return (Finding(at, "table", Outcome.UNSURE if points else Outcome.PARTIAL, points, points, message),)
+        message = " ".join([*(names or [_NO_TABLE]), *_cells(asked)])
+        unsure = points or asked.submission.tracking
+        return (Finding(at, "table", Outcome.UNSURE if unsure else Outcome.PARTIAL, points, points, message),)
     slips = list(_slips(fit, asked))
-    outcome = _outcome(fit, is_clean=not slips)
-    share = {Outcome.RIGHT: 1.0, Outcome.PARTIAL: 0.5}.get(outcome, 0.0)
+    outcome = Outcome.UNSURE if names else _outcome(fit, is_clean=not slips)
+    share = {Outcome.RIGHT: 1.0, Outcome.UNSURE: 1.0, Outcome.PARTIAL: 0.5}.get(outcome, 0.0)
     numbers = {"rms_px": fit.rms_px, "scale_ratio": fit.scale_ratio, "lag_frames": fit.lag_frames}
     message = " ".join(
-        [f"Your points lie {fit.rms_px:.2g} px (root mean square) from the true ones.", *(m for _, m in slips)]
+        [f"Your points lie {fit.rms_px:.2g} px (root mean square) from the true ones."]
+        + [words for _, words in slips]
+        + names
+        + ([] if outcome is Outcome.RIGHT else _cells(asked))
     )
     code = slips[0][0] if len(slips) == 1 else ""
     return (Finding(at, "table", outcome, share * points, points, message, numbers, code),)
+
+
+def _names(asked: Asked) -> list[str]:
+    """Say which points the table calls otherwise than the assignment, and which columns are missed."""
+    table, points = asked.submission.tracking, asked.key.points
+    missing = [p for p in points if not {f"{p}_x_m", f"{p}_y_m"} <= table.keys()]
+    others = other_points(table, points)[:_MOST_NAMES]
+    if missing and others:
+        called = f"The table has points called {', '.join(others)}; the assignment's are {', '.join(missing)}."
+        ask = f"Call the columns {missing[0]}_x_m, {missing[0]}_y_m and so on, and hand in again."
+        return [f"{called} {ask} A person will look at it."]
+    if missing and f"{missing[0]}_x_px" in table:
+        return [f"The table has {', '.join(missing)} in pixels only: metres are asked for. A person will look at it."]
+    return []
+
+
+def _cells(asked: Asked) -> list[str]:
+    return [FOR_STUDENT[flag] for flag in asked.submission.flags if flag in _OF_CELLS]
 
 
 def _outcome(fit: TrajectoryFit, *, is_clean: bool) -> Outcome:

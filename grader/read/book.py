@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Mapping
+import itertools
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from typing import Any
 
-from grader.model import Kind
+from grader.kind import Kind
 from grader.read import limits
 from grader.read.container import Container, open_container
 from grader.read.errors import SAVE_AS, RefusedError, UnreadableError
+from grader.read.flags import Flag
 from grader.read.parts import Relation, read_directory, read_formats, read_relations, read_strings
 from grader.read.sheet import BookCell, Place, SheetContent, read_sheet
 from grader.read.sniff import require_zip
@@ -45,6 +48,19 @@ class Sheet:
                 return self.cells.get((top, left), BookCell(Kind.BLANK))
         return BookCell(Kind.BLANK)
 
+    def __getstate__(self) -> dict[str, object]:
+        """Travel between processes as columns of plain values, not as thousands of cells: a third of the work."""
+        return {**self.__dict__, "cells": (tuple(_columns(self.cells)), tuple(_columns(self.cells.values())))}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        places, values = (_columns(columns) for columns in state["cells"])
+        self.__dict__.update(state, cells=dict(zip(places, itertools.starmap(BookCell, values), strict=True)))
+
+
+def _columns(rows: Iterable[tuple[object, ...]]) -> Iterator[tuple[Any, ...]]:
+    """Turn rows into columns, or columns into rows."""
+    return zip(*rows, strict=True)
+
 
 @dataclass(frozen=True)
 class Book:
@@ -53,7 +69,7 @@ class Book:
     name: str
     sheets: tuple[Sheet, ...]
     names: Mapping[str, str]
-    flags: tuple[str, ...]
+    flags: tuple[Flag, ...]
     file_sha256: str
 
 
@@ -103,7 +119,7 @@ def _read_book(request: ReadRequest, container: Container, path: str) -> Book:
         if sum(len(sheet.cells) for sheet in sheets) > limits.CELLS:
             raise RefusedError(f"a workbook with more than {limits.CELLS} cells")
     if directory.is_1904:
-        flags.add("date-system-1904")
+        flags.add(Flag.DATE_SYSTEM_1904)
     return Book(request.name, tuple(sheets), directory.names, tuple(sorted(flags)), _sha(request.data))
 
 
@@ -118,12 +134,12 @@ def _part(container: Container, relations: Mapping[str, Relation], kind: str) ->
     return b"<none/>"
 
 
-def _flags_of(container: Container) -> set[str]:
-    flags = set()
+def _flags_of(container: Container) -> set[Flag]:
+    flags: set[Flag] = set()
     if any(name.endswith("vbaproject.bin") for name in container.members):
-        flags.add("macros")
+        flags.add(Flag.MACROS)
     if any("/externallinks/" in name for name in container.members):
-        flags.add("links")
+        flags.add(Flag.LINKS)
     return flags
 
 
@@ -134,7 +150,7 @@ def _read_inner(request: ReadRequest, container: Container, *, is_inner: bool) -
         raise _other_document(container)
     data = container.read(inner[0])
     book = _read(ReadRequest(request.name, data), is_inner=True)
-    return Book(book.name, book.sheets, book.names, (*book.flags, "zipped"), _sha(request.data))
+    return Book(book.name, book.sheets, book.names, (*book.flags, Flag.ZIPPED), _sha(request.data))
 
 
 def _other_document(container: Container) -> RefusedError:

@@ -24,6 +24,7 @@ _SPELLINGS = {"pixel": "px", "pixels": "px", "pix": "px", "sec": "s", "seconds":
 _SPELLINGS |= {"metre": "m", "meter": "m", "metres": "m", "meters": "m", "msec": "ms"}
 _FILLERS = frozenset({"pos", "position", "coord", "coordinate", "centre", "center"})
 _DERIVED = frozenset({"v", "a", "p", "vel", "acc", "velocity", "acceleration", "speed", "theta", "omega", "alpha"})
+_LETTERED = frozenset({"mass", "point", "marker", "object", "body"})  # a letter behind one is a name: mass A
 
 
 @dataclass(frozen=True)
@@ -86,7 +87,7 @@ def _heading(words: Sequence[str], unit: str) -> Heading | None:
 
 
 def _of_point(role: str, words: Sequence[str], unit: str) -> Heading | None:
-    if set(words) & _DERIVED:
+    if any(word in _DERIVED and before not in _LETTERED for before, word in zip(["", *words], words, strict=False)):
         return None
     named = [word for word in words if word != "pixel"]
     return Heading(role, "_".join(named), "px" if len(named) < len(words) else unit)

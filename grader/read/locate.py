@@ -9,10 +9,12 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from assignments.model import Question
-from grader.model import Answer, Kind, Submission
+from grader.kind import Kind
+from grader.model import Answer, Submission
 from grader.read.book import Book, BookCell, Sheet
 from grader.read.errors import OUR_TEMPLATE, UnreadableError
-from grader.read.sheet import Place, address_of, place_of
+from grader.read.flags import Flag
+from grader.read.sheet import Place, address_of, place_of, shortest
 from grader.read.table import read_table
 from vml_course.model.arrays import FloatArray
 
@@ -231,12 +233,13 @@ def _plain(text: str) -> str:
     return re.sub(r"[\s_:=.]+", "", _IN_BRACKETS.sub("", straight) or straight)
 
 
-def _hidden(book: Book) -> set[str]:
+def _hidden(book: Book) -> set[Flag]:
     ours = (_META_SHEET, "_")
-    return {"hidden-sheet"} if any(not s.is_visible and not s.name.startswith(ours) for s in book.sheets) else set()
+    return {Flag.HIDDEN_SHEET} if any(not s.is_visible and not s.name.startswith(ours) for s in book.sheets) else set()
 
 
 def _content_sha256(answers: Mapping[str, Answer], tracking: Mapping[str, FloatArray]) -> str:
+    """Return a hash of what is said, to the 15 digits that LibreOffice keeps: saving it there says nothing new."""
     content = repr(sorted((k, a.kind.value, a.text, a.unit_text) for k, a in answers.items()))
-    columns = repr([(name, list(map(str, column))) for name, column in sorted(tracking.items())])
+    columns = repr([(name, list(map(shortest, column.tolist()))) for name, column in sorted(tracking.items())])
     return hashlib.sha256((content + columns).encode()).hexdigest()

@@ -36,71 +36,65 @@ def read_relations(content: bytes, folder: str) -> dict[str, Relation]:
     """Return the relations by id, with targets as member names."""
     relations: dict[str, Relation] = {}
 
-    def start(name: str, attributes: Attributes) -> None:
-        if name == "Relationship" and attributes.get("TargetMode") != "External":
-            target = attributes.get("Target", "").replace("\\", "/")
-            path = target.lstrip("/") if target.startswith("/") else posixpath.normpath(posixpath.join(folder, target))
-            kind = attributes.get("Type", "").rpartition("/")[2]
-            relations[attributes.get("Id", "")] = Relation(path.lower(), kind)
-            _limit(len(relations), limits.MEMBERS, "relations")
+    def relation(attributes: Attributes) -> None:
+        if attributes.get("TargetMode") == "External":
+            return
+        target = attributes.get("Target", "").replace("\\", "/")
+        path = target.lstrip("/") if target.startswith("/") else posixpath.normpath(posixpath.join(folder, target))
+        kind = attributes.get("Type", "").rpartition("/")[2]
+        relations[attributes.get("Id", "")] = Relation(path.lower(), kind)
+        _limit(len(relations), limits.MEMBERS, "relations")
 
-    parse(content, start)
+    parse(content, {"Relationship": relation})
     return relations
 
 
 def read_directory(content: bytes) -> Directory:
-    """Read the list of sheets and the defined names."""
-    found, inside = Directory(), [""]
+    """Read the list of sheets and the defined names; of a name that single sheets have too, the workbook's counts."""
+    found = Directory()
+    named: list[Attributes] = [{}]
 
-    def start(name: str, attributes: Attributes) -> None:
-        inside[0] = ""
-        if name == "sheet":
-            sheet = plain(attributes)
-            found.sheets.append((sheet.get("name", ""), sheet.get("state", "visible"), sheet.get("id", "")))
-            _limit(len(found.sheets), limits.SHEETS, "sheets")
-        elif name == "definedName":
-            inside[0] = attributes.get("name", "").lower()
-            found.names.setdefault(inside[0], "")
-            _limit(len(found.names), limits.NAMES, "names")
-        elif name == "workbookPr":
-            found.is_1904 = attributes.get("date1904", "0").lower() in {"1", "true"}
+    def sheet(attributes: Attributes) -> None:
+        said = plain(attributes)
+        found.sheets.append((said.get("name", ""), said.get("state", "visible"), said.get("id", "")))
+        _limit(len(found.sheets), limits.SHEETS, "sheets")
 
-    def text(part: str) -> None:
-        if inside[0] and len(found.names[inside[0]]) < limits.TEXT_LENGTH:
-            found.names[inside[0]] += part
+    def system(attributes: Attributes) -> None:
+        found.is_1904 = attributes.get("date1904", "0").lower() in {"1", "true"}
 
-    def end(_: str) -> None:
-        inside[0] = ""
+    def name(attributes: Attributes) -> None:
+        named[0] = attributes
 
-    parse(content, start, end, text)
+    def place(text: str) -> None:
+        name = named[0].get("name", "").lower()
+        if "localSheetId" not in named[0] or name not in found.names:
+            found.names[name] = text[: limits.TEXT_LENGTH]
+        _limit(len(found.names), limits.NAMES, "names")
+
+    parse(content, {"sheet": sheet, "workbookPr": system, "definedName": name}, {"definedName": place})
     return found
 
 
 def read_strings(content: bytes) -> list[str]:
     """Return the shared strings; pronunciation guides are left out."""
     strings: list[str] = []
-    pieces: list[str] = []
-    state = {"t": False, "phonetic": False}
+    runs: list[str] = []
+    before = [0]
 
-    def start(name: str, _: Attributes) -> None:
-        if name == "si":
-            pieces.clear()
-        state["t"] = name == "t"
-        state["phonetic"] = state["phonetic"] or name == "rPh"
+    def string(_: Attributes) -> None:
+        runs.clear()
 
-    def text(part: str) -> None:
-        if state["t"] and not state["phonetic"]:
-            pieces.append(part)
+    def guide(_: Attributes) -> None:
+        before[0] = len(runs)
 
-    def end(name: str) -> None:
-        state["t"] = False
-        if name == "rPh":
-            state["phonetic"] = False
-        elif name == "si":
-            strings.append("".join(pieces)[: limits.TEXT_LENGTH])
-            _limit(len(strings), limits.STRINGS, "texts")
+    def no_guide(_: str) -> None:
+        del runs[before[0] :]
 
-    parse(content, start, end, text)
+    def end(_: str) -> None:
+        strings.append("".join(runs)[: limits.TEXT_LENGTH])
+        _limit(len(strings), limits.STRINGS, "texts")
+
+    parse(content, {"si": string, "rPh": guide}, {"t": runs.append, "rPh": no_guide, "si": end})
     return strings
 
 
@@ -110,27 +104,28 @@ def read_formats(content: bytes) -> list[str]:
     formats: list[str] = []
     inside = [False]
 
-    def start(name: str, attributes: Attributes) -> None:
-        if name == "cellXfs":
-            inside[0] = True
-        elif name == "numFmt":
-            codes[attributes.get("numFmtId", "")] = attributes.get("formatCode", "")[: limits.TEXT_LENGTH]
-            _limit(len(codes), limits.STYLES, "styles")
-        elif name == "xf" and inside[0]:
+    def cells(_: Attributes) -> None:
+        inside[0] = True
+
+    def code(attributes: Attributes) -> None:
+        codes[attributes.get("numFmtId", "")] = attributes.get("formatCode", "")[: limits.TEXT_LENGTH]
+        _limit(len(codes), limits.STYLES, "styles")
+
+    def style(attributes: Attributes) -> None:
+        if inside[0]:
             formats.append(_format(attributes.get("numFmtId", "0"), codes))
             _limit(len(formats), limits.STYLES, "styles")
 
-    def end(name: str) -> None:
-        if name == "cellXfs":
-            inside[0] = False
+    def end(_: str) -> None:
+        inside[0] = False
 
-    parse(content, start, end)
+    parse(content, {"cellXfs": cells, "numFmt": code, "xf": style}, {"cellXfs": end})
     return formats
 
 
 def _format(number: str, codes: dict[str, str]) -> str:
-    if number in codes:
-        return codes[number]
+    if number in codes:  # LibreOffice gives the general format a number of its own
+        return "" if codes[number].lower() == "general" else codes[number]
     if number in {"9", "10"}:
         return "0%"
     return "date" if number.isascii() and number.isdigit() and int(number[:6]) in _BUILTIN_DATES else ""
@@ -143,8 +138,6 @@ def shows_date(code: str) -> bool:
     >>> shows_date("dd/mm/yyyy"), shows_date('0.00" days"'), shows_date("0.0E+00"), shows_date("[h]:mm")
     (True, False, False, True)
     """
-    if not code or code.lower() == "general":
-        return False
     bare = _NOT_LETTERS.sub("", code).lower().replace("general", "")
     return any(letter in bare for letter in "ymdhs")
 

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from grader.model import Kind
+from grader.kind import Kind
 from grader.read.book import Book, BookCell, Sheet
+from grader.read.flags import Flag
 from grader.read.headings import Heading, match_points, read_headings
 from vml_course.errors import InputError
 from vml_course.model.arrays import FloatArray
@@ -18,7 +19,11 @@ from vml_course.model.reading import read_number
 _LEAST_HEADINGS = 3
 _ROWS_SEARCHED = 200
 _DELIMITERS = "\t;,"
-_STRAY = {Kind.DATE: "dates-in-tracking", Kind.UNCACHED: "uncached-in-tracking", Kind.ERROR: "errors-in-tracking"}
+_STRAY = {
+    Kind.DATE: Flag.DATES_IN_TRACKING,
+    Kind.UNCACHED: Flag.UNCACHED_IN_TRACKING,
+    Kind.ERROR: Flag.ERRORS_IN_TRACKING,
+}
 _DECIMAL_COMMA = re.compile(r"\s*[-+−]?([0-9]+,([0-9]{1,2}|[0-9]{4,})|0,[0-9]+)\s*")
 _DECIMAL_POINT = re.compile(r"\s*[-+−]?[0-9]*\.[0-9]+\s*")
 
@@ -31,7 +36,7 @@ class Table:
     ----------
     columns : mapping of str to float array, shape (n,)
         By our own names, NaN where nothing can be read; empty when there is no table.
-    flags : set of str
+    flags : set of Flag
     where : str
         The sheet.
     unnamed : tuple of str
@@ -39,7 +44,7 @@ class Table:
     """
 
     columns: Mapping[str, FloatArray]
-    flags: frozenset[str] = frozenset()
+    flags: frozenset[Flag] = frozenset()
     where: str = ""
     unnamed: tuple[str, ...] = ()
 
@@ -105,12 +110,12 @@ def _columns(sheet: Sheet, header: int, headings: Mapping[int, Heading]) -> Tabl
     rows = sorted({row for row, column in sheet.cells if row > header and column in headings})
     below = [[sheet.cells.get((row, column)) for row in rows] for column in headings]
     comma = _comma_is_decimal(cell.text for column in below for cell in column if cell and cell.kind is Kind.TEXT)
-    flags: set[str] = set()
+    flags: set[Flag] = set()
     columns: dict[str, FloatArray] = {}
     for heading, cells in zip(headings.values(), below, strict=True):
         values = np.array([_number(cell, flags, comma=comma) for cell in cells]) * heading.factor
         if not np.allclose(values, columns.get(heading.name, values), rtol=1e-6, equal_nan=True):
-            flags.add("columns-twice")
+            flags.add(Flag.COLUMNS_TWICE)
         columns.setdefault(heading.name, values)
     positions = [column for name, column in columns.items() if name.endswith(("_m", "_px"))]
     kept = np.isfinite(positions).any(axis=0)
@@ -125,7 +130,7 @@ def _comma_is_decimal(texts: Iterable[str]) -> bool:
     return any(map(_DECIMAL_COMMA.fullmatch, texts)) and not any(map(_DECIMAL_POINT.fullmatch, texts))
 
 
-def _number(cell: BookCell | None, flags: set[str], *, comma: bool) -> float:
+def _number(cell: BookCell | None, flags: set[Flag], *, comma: bool) -> float:
     """Return a cell's number, NaN when there is none; what is there instead is flagged."""
     if cell is None:
         return np.nan
@@ -136,7 +141,7 @@ def _number(cell: BookCell | None, flags: set[str], *, comma: bool) -> float:
             return read_number(cell.text.replace(",", ".") if comma and cell.text.count(",") == 1 else cell.text)
         except InputError:
             pass
-    flags.add(_STRAY.get(cell.kind, "text-in-tracking"))
+    flags.add(_STRAY.get(cell.kind, Flag.TEXT_IN_TRACKING))
     return np.nan
 
 
@@ -151,8 +156,17 @@ def _with_points(table: Table, points: Sequence[str]) -> Table:
     unnamed = tuple(name for name in names if name not in meant) if points else ()
     # a point too many does no harm: only one that the assignment asks for must be there
     is_complete = set(points) <= set(meant.values())
-    flags = table.flags | (set() if is_complete or not unnamed else {"unnamed-points"})
+    flags = table.flags | (set() if is_complete or not unnamed else {Flag.UNNAMED_POINTS})
     return Table(columns, frozenset(flags), table.where, () if is_complete else unnamed)
+
+
+def other_points(columns: Iterable[str], points: Sequence[str]) -> list[str]:
+    """Return the points of these columns that are none of the assignment's, in order.
+
+    >>> other_points(["frame", "ball_x_m", "mass_a_x_px", "mass_a_y_px"], ["ball"])
+    ['mass_a']
+    """
+    return sorted({_point(name) for name in columns} - {"", *points})
 
 
 def _point(name: str) -> str:

@@ -21,10 +21,11 @@ import threading
 from collections.abc import Callable
 from typing import IO
 
-from grader.model import Kind
+from grader.kind import Kind
 from grader.read import limits
-from grader.read.book import Book, BookCell, ReadRequest, Sheet, read_workbook, shown_name
+from grader.read.book import Book, ReadRequest, Sheet, read_workbook, shown_name
 from grader.read.errors import OUR_TEMPLATE, ReaderFailedError, UnreadableError
+from grader.read.flags import Flag
 
 try:
     import resource
@@ -34,7 +35,7 @@ except ImportError:  # pragma: no cover - Windows
 _COMMAND = "from grader.read.worker import serve; serve()"
 _READY = b"ready"
 _LENGTH_BYTES = 8
-_PLAIN = {(kind.__module__, kind.__qualname__): kind for kind in (Book, Sheet, BookCell, Kind)}
+_PLAIN = {(kind.__module__, kind.__qualname__): kind for kind in (Book, Sheet, Kind, Flag)}
 
 
 class Reader:

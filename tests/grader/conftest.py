@@ -22,7 +22,8 @@ from assignments.workbook import fill_workbook, write_workbook
 from grader.grade import grade
 from grader.gradebook import Gradebook
 from grader.model import Answer, Grade, Kind, Submission
-from grader.read import ReadRequest, find_submission, read_workbook
+from grader.read import ReadRequest, read_workbook
+from grader.read.locate import find_submission
 from grader.roster import Enrolled
 
 FPS, SCALE = 480.0, 500.0

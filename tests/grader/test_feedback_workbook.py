@@ -15,8 +15,9 @@ from grader.annotated import FEEDBACK, annotated_workbook
 from grader.feedback import Report
 from grader.grade import grade
 from grader.model import Kind
-from grader.read import Book, BookCell, ReadRequest, UnreadableError, find_submission, read_workbook
+from grader.read import Book, BookCell, ReadRequest, UnreadableError, read_workbook
 from grader.read.book import Sheet
+from grader.read.locate import find_submission
 
 
 def opened(data: bytes) -> openpyxl.Workbook:
@@ -143,3 +144,22 @@ def test_merged_cells_stay_merged_and_are_not_in_the_way(desk):
     others = tuple(sheet for sheet in book.sheets if sheet.name != "Answers")
     made = opened(copy_of(desk, replace(book, sheets=(merged, *others))))
     assert len(made["Answers"].merged_cells.ranges) == 2
+
+
+def test_rows_are_as_high_as_their_texts_and_pages_hold_all_columns(desk):
+    """LibreOffice finds no height by itself: sentences would lie over one another."""
+    made = opened(copy_of(desk, book_of(desk, e=0.1)))
+    heights = {cell.row: sheet.row_dimensions[cell.row].height for sheet in made.worksheets[:1] for cell in sheet["G"]}
+    said = {cell.row: cell.value for cell in made[FEEDBACK]["G"] if cell.value}
+    assert all(heights[row] >= 15 * (text.count("\n") + 1) for row, text in said.items())
+    assert max(heights[row] for row in said) > 30
+    assert all(sheet.sheet_properties.pageSetUpPr.fitToPage for sheet in made.worksheets)
+
+
+def test_long_texts_run_on_and_notes_of_several_lines_are_seen(desk):
+    cells = {(1, 1): BookCell(Kind.TEXT, written="x" * 45), (2, 1): BookCell(Kind.TEXT, written="a\nb\nc")}
+    cells |= {(3, 1): BookCell(Kind.TEXT, written="y" * 20), (3, 2): BookCell(Kind.NUMBER, 1.0)}
+    made = opened(copy_of(desk, sheet_of(cells, merges=((1, 1, 1, 4), (5, 1, 6, 2)))))["Answers"]
+    assert made.column_dimensions["A"].width == 22
+    assert made.row_dimensions[2].height == 45
+    assert [str(merge) for merge in made.merged_cells.ranges] == ["A5:B6"]

@@ -15,7 +15,8 @@ from hypothesis import strategies as st
 from openpyxl.workbook.defined_name import DefinedName
 
 from grader.model import Kind
-from grader.read import ReadRequest, claims_of, find_submission, read_workbook
+from grader.read import ReadRequest, read_workbook
+from grader.read.locate import claims_of, find_submission
 from grader.read.parts import shows_date
 from grader.read.sheet import address_of, place_of
 from grader.stated import Stated, Unstated, state

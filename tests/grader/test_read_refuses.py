@@ -11,9 +11,10 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from grader.read import ReadRequest, UnreadableError, claims_of, find_submission, limits, read_workbook
+from grader.read import ReadRequest, UnreadableError, limits, read_workbook
 from grader.read.container import open_container
 from grader.read.errors import RefusedError
+from grader.read.locate import claims_of, find_submission
 from vml_course.errors import InputError
 
 

@@ -11,8 +11,8 @@ import pytest
 
 from grader.model import Answer, Kind, Outcome
 from grader.plausible import settle_readings
-from grader.read import ReadRequest, UnreadableError, claims_of, find_submission, read_workbook
-from grader.read.locate import find_beside
+from grader.read import ReadRequest, UnreadableError, read_workbook
+from grader.read.locate import claims_of, find_beside, find_submission
 from grader.read.sheet import _EPOCH, _date_text
 from grader.stated import Stated, Unstated, state
 
@@ -46,6 +46,12 @@ def test_different_answers_under_one_label_are_left_to_a_person(assignment):
     assert isinstance(stated, Unstated)
     assert stated.outcome is Outcome.UNSURE
     assert stated.reason.startswith("Several cells carry this label (Answers!B1, Answers!B3)")
+
+
+def test_of_many_different_answers_the_first_four_are_shown(assignment):
+    found = answer_of(assignment, [[LABEL, number, "m"] for number in (1, 2, 3, 4, 5)])
+    assert (found.text, found.unit_text, found.number) == ("1, 2, 3, 4", "", None)
+    assert found.where == "Answers!B1, Answers!B2, Answers!B3, Answers!B4"
 
 
 def test_the_symbol_decides_where_the_label_stands_twice(assignment):
@@ -91,6 +97,17 @@ def test_a_name_is_cut_and_a_text_between_names_belongs_to_none():
     directory = corpus.members(data)["xl/workbook.xml"].replace(b"<definedNames>", b"<calcPr/>text<definedNames>")
     book = read_workbook(ReadRequest("w", corpus.with_parts(data, **{"xl/workbook.xml": directory})))
     assert set(book.names) == {"ans_e"}
+
+
+def test_a_copied_sheet_has_names_of_its_own_that_hide_none():
+    """A program that copies a sheet gives the copy the same names, for that sheet alone."""
+    data = corpus.Dialect().write({"Answers": [["e", 0.5]], "_meta": META})
+    directory = corpus.members(data)["xl/workbook.xml"]
+    own = b'<definedName name="ANS_E" localSheetId="1">Copy!$C$1</definedName>'
+    ours = b'<definedName name="ans_e">Answers!$B$1</definedName>'
+    for names in (own + ours, ours + own):
+        parts = {"xl/workbook.xml": directory.replace(b"<definedNames>", b"<definedNames>" + names)}
+        assert read_workbook(ReadRequest("w", corpus.with_parts(data, **parts))).names == {"ans_e": "Answers!$B$1"}
 
 
 def test_the_meta_sheet_says_its_version():
@@ -203,6 +220,20 @@ def settled(assignment, question, text, truth=None, unit=""):
         ("v_f1", "9,703 and 1,234", None, ""),
         ("v_f1", "15,5", None, ""),
         ("v_f1", "9,703 quux", None, ""),
+        ("v_f1", "1,234 km/h", {"v_f1": 0.4}, "1.234 km/h"),
+        ("px_per_m", "1,500", {"px_per_m": 50.0}, "1500"),  # thirty times is the farthest
+        ("px_per_m", "1,501", {"px_per_m": 50.0}, ""),
+        ("px_per_m", "1,500", {"px_per_m": 45000.0}, "1500"),
+        ("px_per_m", "1,499", {"px_per_m": 45000.0}, ""),
+        ("px_per_m", "1,234", {"px_per_m": float("nan")}, ""),
+        ("px_per_m", "1,234", {"fps": 1200.0}, ""),
+        ("omega1", "-9,703", {"omega1": 9.0}, "-9.703"),
+        ("omega1", "-1,000", None, ""),  # both can be
+        ("omega1", "1,001", None, "1.001"),
+        ("v_f1", "300,000", None, "300.000"),
+        ("v_f1", "9.703", None, ""),
+        ("v_f1", "9703,123", None, ""),
+        ("v_f1", "0,703", None, ""),
     ],
 )
 def test_a_comma_is_settled_where_one_reading_alone_is_plausible(assignment, question, text, truth, read_as):

@@ -10,10 +10,13 @@ import pytest
 
 from assignments.model import NOBODY
 from assignments.workbook import fill_workbook, write_workbook
-from grader.consistent import _OF_FLAGS, remarks_on
+from grader.consistent import remarks_on
+from grader.flags import FOR_STUDENT
 from grader.form import check_workbook
-from grader.read import ReadRequest, find_submission, read_workbook
+from grader.read import ReadRequest, read_workbook
 from grader.read.book import Book
+from grader.read.flags import Flag
+from grader.read.locate import find_submission
 from grader.template import template_cells
 from vml_course.cli import run
 
@@ -113,9 +116,9 @@ def test_without_a_written_scale_none_is_compared(desk):
     assert remarks(desk, {"px_per_m": ""}, tracking=column("ball_x_px", lambda t: 300 * t["ball_x_m"])) == []
 
 
-@pytest.mark.parametrize("flag", _OF_FLAGS)
+@pytest.mark.parametrize("flag", Flag)
 def test_every_flag_is_said(desk, flag):
-    assert remarks(desk, flags=(flag, "unknown")) == [_OF_FLAGS[flag]]
+    assert remarks(desk, flags=(flag,)) == [FOR_STUDENT[flag]]
 
 
 def test_the_answers_are_looked_at_for_form(desk):

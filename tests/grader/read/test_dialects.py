@@ -14,7 +14,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from grader.model import Kind
-from grader.read import ReadRequest, UnreadableError, find_submission, read_workbook
+from grader.read import ReadRequest, UnreadableError, limits, read_workbook
+from grader.read.flags import Flag
+from grader.read.locate import find_submission
+from grader.read.sheet import read_sheet
 
 META = [["format", "1"], ["assignment", "soccer-kick"], ["variant_code", "CODE1"], ["signature", "signed"]]
 ANSWERS = [
@@ -74,12 +77,15 @@ def test_odd_values_of_other_programs(assignment):
         '<c r="I1"><v>1e999</v></c><c r="J1" t="b"><v>0</v></c><c r="K1" s="77"><v> 3 </v></c>'
         '<c r="L1" s="x"><v>4</v></c><c r="M1" vm="1"><v>5</v><extLst><ext/></extLst></c><c r="?"><v>6</v></c>'
         '<c r="P1" t="inlineStr"><is><t>a</t><rPh><t>no</t></rPh><t>b</t></is></c>'
+        '<c r="Q1" t="s"><v/></c><c r="S1"><v> </v></c><c r="R1" t="s"><f>X1</f></c>'
+        '<c r="T4"><v>7</v></c><c><v>8</v></c>'
     )
     data = corpus.Dialect().write({"s": [[1.0]]})
     sheet = f'<worksheet><sheetData><row r="x">{cells}</row></sheetData><f>stray</f></worksheet>'
     data = corpus.with_parts(data, **{"xl/worksheets/sheet1.xml": sheet.encode()})
     at = read_workbook(ReadRequest("w.xlsx", data)).sheets[0].at
-    read_cells = [(at((1, c)).kind.value, at((1, c)).text) for c in range(1, 17)]
+    read_cells = [(at((1, c)).kind.value, at((1, c)).text) for c in range(1, 20)]
+    assert [at((4, c)).text for c in (20, 21)] == ["7", "8"]  # the row that the cell itself names
     assert read_cells == [
         ("number", "1.5"),
         ("number", "2.5"),
@@ -97,7 +103,29 @@ def test_odd_values_of_other_programs(assignment):
         ("number", "6"),
         ("blank", ""),
         ("text", "ab"),
+        ("blank", ""),
+        ("uncached", ""),
+        ("blank", ""),
     ]
+
+
+def test_a_cell_stands_where_it_says_whatever_row_it_is_in():
+    cells = '<row r="2"><c r="B7"><v>1</v></c><c r="C2"><v>2</v></c><c><v>3</v></c><c r="$E$2"><v>4</v></c></row>'
+    cells += '<row><c r="A1"><v>5</v></c></row><row r="2"><c r="a2"><v>6</v></c><c r="IW2"><v>7</v></c></row>'
+    sheet = read_sheet(f"<worksheet><sheetData>{cells}</sheetData></worksheet>".encode(), [], [])
+    places = {place: cell.number for place, cell in sheet.cells.items()}
+    assert places == {(7, 2): 1, (2, 3): 2, (2, 4): 3, (2, 5): 4, (1, 1): 5, (2, 1): 6}
+    assert sheet.flags == {Flag.FAR_CELLS}
+
+
+def test_more_styles_than_are_remembered_are_read_alike(monkeypatch):
+    cells = "".join(f'<c r="A{row}" s="{row % 3}"><v>{row}</v></c>' for row in range(1, 13))
+    sheet = f"<worksheet><sheetData>{cells}</sheetData></worksheet>".encode()
+    formats = ["", "0.00", "yyyy"]
+    before = read_sheet(sheet, [], formats).cells
+    monkeypatch.setattr(limits, "STYLES", 1)
+    assert read_sheet(sheet, [], formats).cells == before
+    assert [before[row, 1].kind for row in (1, 2, 3)] == [Kind.NUMBER, Kind.DATE, Kind.NUMBER]
 
 
 def test_a_long_formula_costs_no_more_than_a_short_one():

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import mutants
 
-from grader.read import ReadRequest, UnreadableError, find_submission, read_workbook
+from grader.read import ReadRequest, UnreadableError, read_workbook
+from grader.read.locate import find_submission
 
 
 def test_three_hundred_broken_workbooks_end_politely(assignment, good_bytes):

@@ -8,7 +8,8 @@ import zlib
 import corpus
 import pytest
 
-from grader.read import ReadRequest, UnreadableError, claims_of, container, limits, markup, read_workbook
+from grader.read import ReadRequest, UnreadableError, container, limits, markup, read_workbook
+from grader.read.locate import claims_of
 
 
 def refusal(data: bytes) -> str:
@@ -57,10 +58,77 @@ def test_a_hostile_file_is_refused_before_much_work_is_done(good_bytes, work, na
     assert work["parsed"] < 2**18
 
 
+AGAIN = ("header lies", "a sheet twice", "401 entries", "an entry inside")  # damaged on the way
+TOO_MANY_PARTS = ("1000 parts",)
+
+
+@pytest.mark.filterwarnings("ignore:Duplicate name")
+@pytest.mark.parametrize("name", corpus.HOSTILE)
+def test_a_hostile_file_is_told_what_to_do(good_bytes, name):
+    with pytest.raises(UnreadableError) as caught:
+        read_workbook(ReadRequest("w.xlsx", corpus.HOSTILE[name][0](good_bytes)))
+    words = "save it again" if name.startswith(AGAIN) else "File, Save As" if name in TOO_MANY_PARTS else "Type your"
+    assert words in caught.value.hint
+
+
 @pytest.mark.parametrize("name", corpus.OTHER_FORMATS)
 def test_another_format_is_named_for_what_it_is(good_bytes, name):
     make, words = corpus.OTHER_FORMATS[name]
     assert words in refusal(make(good_bytes))
+
+
+WHAT_TO_DO = {
+    "nothing": "hand it in again",
+    "password": "Remove the password",
+    "old .doc": "the workbook that came with your video",
+    "docx": "the workbook that came with your video",
+    "pptx": "the workbook that came with your video",
+    "numbers": "Export To",
+    **dict.fromkeys(("zip of no workbook", "zip of two workbooks"), "not packed"),
+    **dict.fromkeys(("zip in a zip", "zip in a zip, named so"), "not packed"),
+    **dict.fromkeys(("half an upload", "the tail cut off"), "save it again"),
+    "a shortcut of a cloud drive": "File, Download",
+}
+
+
+@pytest.mark.parametrize("name", corpus.OTHER_FORMATS)
+def test_another_format_is_told_what_to_do(good_bytes, name):
+    with pytest.raises(UnreadableError) as caught:
+        read_workbook(ReadRequest("w.xlsx", corpus.OTHER_FORMATS[name][0](good_bytes)))
+    assert WHAT_TO_DO.get(name, "File, Save As, Excel Workbook (.xlsx)") in caught.value.hint
+
+
+@pytest.mark.parametrize(
+    ("data", "words"),
+    [
+        (b"\x89PNG", "a picture (PNG)"),
+        (b"\xff\xd8\xff", "a picture (JPEG)"),
+        (b"GIF89a", "a picture (GIF)"),
+        (b"7z\xbc\xaf", "a 7z archive"),
+        (b"\x1f\x8b", "a gzip archive"),
+        (b"{\\rtf1", "a text document (RTF)"),
+        (b"ID3", "a sound file"),
+        (b"RIFF....AVI ", "a video"),
+        (b"....ftyp", "a video"),
+        (b"...ftyp.", "unknown kind"),
+        (b" \t\r\n<HTML>", "a web page"),
+        (b"<table>", "a web page"),
+        (b"{'url': 1}", "unknown kind"),
+        (b"doc_id", "unknown kind"),
+        (b"\xfe\xff\0a\0;", "CSV"),
+        (b"\xff\xfea\0;\0", "CSV"),
+        (b"a\0;", "unknown kind"),
+        (b"a" * 4095 + b";", "CSV"),
+        (b"a" * 4096 + b";", "unknown kind"),
+        (b"PK\x05\x06", "incomplete upload"),
+    ],
+)
+def test_a_file_is_known_by_its_first_bytes(data, words):
+    with pytest.raises(UnreadableError) as caught:
+        read_workbook(ReadRequest("w.xlsx", data))
+    assert words in caught.value.got
+    what_to_do = {"a video": "Hand in the workbook, not the video", "incomplete upload": "save it again"}
+    assert what_to_do.get(words, "File, Save As, Excel Workbook (.xlsx)") in caught.value.hint
 
 
 @pytest.mark.parametrize("folder", ["", "Doe Jane_4711_assignsubmission_file/"])
@@ -116,5 +184,25 @@ def test_many_cells_over_several_sheets_are_refused(good_bytes, monkeypatch):
 def test_strange_names_do_not_grow_the_memory(monkeypatch):
     monkeypatch.setattr(limits, "XML_NAMES", 2)
     seen = []
-    markup.parse(b"<a><x:b xmlns:x='u'/><c/><d/><d/></a>", lambda name, _: seen.append(name))
-    assert seen == ["a", "b", "c", "d", "d"]
+    handlers = markup._ByName({"b": seen.append})
+    for name in ["a", "x:b", "y:b", "b", "c", "y:b"]:
+        handler = handlers[name]
+        if handler is not None:
+            handler(name)
+    assert seen == ["x:b", "y:b", "b", "y:b"]
+    assert len(handlers) == 2
+
+
+def test_more_elements_than_any_workbook_has_are_refused_before_they_are_read(work, monkeypatch):
+    monkeypatch.setattr(limits, "XML_ELEMENTS", 3)
+    markup.parse(b"<a><b></b><b/></a>", {})
+    read = work["parsed"]
+    with pytest.raises(container.RefusedError, match="far too many cells"):
+        markup.parse(b"<a><b></b><b/><b/></a>", {})
+    assert work["parsed"] == read
+
+
+def test_the_text_of_an_element_is_what_stands_in_it_alone():
+    said = []
+    markup.parse(b"<a>no<v>1&amp;2</v>no<w><v/>no</w><v>3</v></a>", {}, {"v": said.append})
+    assert said == ["1&2", "", "3"]

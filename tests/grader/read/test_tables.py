@@ -94,6 +94,9 @@ def test_a_comma_is_not_guessed_where_nothing_tells():
         ("pixel_y", Heading("y", "", "px")),
         ("ball_x_s", None),
         ("position", None),
+        ("mass_a_x_m", Heading("x", "mass_a", "m")),
+        ("x Point P (cm)", Heading("x", "point_p", "cm")),
+        ("ball_a_x", None),
         ("v_x", None),
         ("a_y", None),
         ("vx", None),
@@ -153,6 +156,114 @@ def test_what_stands_in_the_place_of_numbers_is_flagged():
     found = table([["frame", "t_s", "ball_x_m", "ball_y_m"], *rows])
     assert found.flags == {"text-in-tracking"}
     assert np.isnan([found.columns["ball_x_m"][2], found.columns["ball_y_m"][3], found.columns["ball_x_m"][4]]).all()
+
+
+@pytest.mark.parametrize(
+    ("cell", "flag"),
+    [
+        ((("NA()"), "#N/A"), "text-in-tracking"),
+        ("lost", "text-in-tracking"),
+        (True, "text-in-tracking"),
+        ("", None),
+        (" ", None),
+        (None, None),
+    ],
+)
+def test_what_a_cell_holds_instead_of_a_number_is_told_apart(cell, flag):
+    rows = line(1, 0.1, 2, 3)
+    rows[3][2] = cell
+    found = table([["frame", "t_s", "ball_x_m", "ball_y_m"], *rows])
+    assert found.flags == ({flag} if flag else frozenset())
+    assert np.isnan(found.columns["ball_x_m"][3])
+    assert found.columns["frame"].size == N  # the row is kept: its y is there
+
+
+@pytest.mark.parametrize(
+    ("kind", "value", "flag"),
+    [
+        ("e", "#N/A", "errors-in-tracking"),
+        ("d", "2026-05-01", "dates-in-tracking"),
+        ("b", "1", "text-in-tracking"),
+    ],
+)
+def test_errors_and_dates_have_flags_of_their_own(kind, value, flag):
+    data = corpus.Dialect().write({"Tracking": [["frame", "t_s", "ball_x_m", "ball_y_m"], *line(1, 0.1, 2, 3)]})
+    markup = corpus.members(data)["xl/worksheets/sheet1.xml"].decode()
+    changed = markup.replace('<c r="C4" t="n"><v>4</v>', f'<c r="C4" t="{kind}"><v>{value}</v>')
+    assert changed != markup
+    book = read_workbook(ReadRequest("w", corpus.with_parts(data, **{"xl/worksheets/sheet1.xml": changed.encode()})))
+    assert read_table(book, POINTS).flags == {flag}
+
+
+def test_formulas_that_were_never_worked_out_have_a_flag_of_their_own():
+    data = corpus.Dialect().write({"Tracking": [["frame", "t_s", "ball_x_m", "ball_y_m"], *line(1, 0.1, 2, 3)]})
+    markup = corpus.members(data)["xl/worksheets/sheet1.xml"].decode()
+    changed = markup.replace('<c r="C4" t="n"><v>4</v>', '<c r="C4"><f>A1</f>')
+    book = read_workbook(ReadRequest("w", corpus.with_parts(data, **{"xl/worksheets/sheet1.xml": changed.encode()})))
+    assert read_table(book, POINTS).flags == {"uncached-in-tracking"}
+
+
+def test_rows_without_any_position_are_left_out():
+    rows = line(1, 0.1, 2, 3)
+    rows[2][2:] = [None, None]
+    rows[5][2] = None
+    found = table([["frame", "t_s", "ball_x_m", "ball_y_m"], *rows])
+    assert found.columns["frame"].tolist() == [i for i in range(N) if i != 2]
+
+
+def test_headings_are_looked_for_in_the_first_two_hundred_rows():
+    grid = [["note"] for _ in range(199)]
+    header = ["frame", "ball_x_m", "ball_y_m"]
+    assert table([*grid, header, *line(1, 2, 3)]).columns
+    assert not table([*grid, ["note"], header, *line(1, 2, 3)]).columns
+
+
+def test_three_headings_are_the_least_and_the_row_with_most_counts():
+    assert not table([["ball_x_m", "ball_y_m"], *line(1, 2)]).columns
+    found = table([["t", "x_ball", "y_ball"], ["frame", "t", "x_ball", "y_ball"], *line(1, 2, 3, 4)])
+    assert found.columns["ball_y_m"][1] == 4
+    again = table([["t", "x_ball", "y_ball"], ["t", "x_foot", "y_foot"], *line(1, 2, 3)])
+    assert set(again.columns) == {"t_s", "ball_x_m", "ball_y_m"}  # of two alike the upper one
+
+
+def test_our_sheet_comes_first_then_the_classic_one_then_any():
+    def grid(step):
+        return [["frame", "t_s", "ball_x_m", "ball_y_m"], *line(1, 0.1, step, 0)]
+
+    sheets = {"other": grid(1), "Data": grid(2), "TRACKING (2)": grid(3)}
+    data = corpus.Dialect().write(sheets)
+    assert read_table(read_workbook(ReadRequest("w", data))).columns["ball_x_m"][1] == 3
+    del sheets["TRACKING (2)"]
+    assert read_table(read_workbook(ReadRequest("w", corpus.Dialect().write(sheets)))).columns["ball_x_m"][1] == 2
+
+
+def test_without_points_of_an_assignment_names_stay_and_none_is_missed():
+    found = table([["frame", "mass_a_x_m", "mass_a_y_m"], *line(1, 2, 3)], points=())
+    assert set(found.columns) == {"frame", "mass_a_x_m", "mass_a_y_m"}
+    assert (found.flags, found.unnamed) == (frozenset(), ())
+
+
+def test_the_one_point_of_an_assignment_is_meant_whatever_it_is_called():
+    found = table([["frame", "mass_a_x_px", "mass_a_y_px"], *line(1, 2, 3)], points=("ball",))
+    assert set(found.columns) == {"frame", "ball_x_px", "ball_y_px"}
+    assert found.flags == frozenset()
+
+
+@pytest.mark.parametrize(
+    ("text", "number"), [("1,5", 1.5), ("-0,25", -0.25), ("−3,75", -3.75), ("0,125", 0.125), ("2,1234", 2.1234)]
+)
+def test_decimal_commas_are_understood_where_one_is_certain(text, number):
+    rows = [[i, i, text, "4,5"] for i in range(N)]
+    found = table([["frame", "t_s", "ball_x_m", "ball_y_m"], *rows])
+    assert found.columns["ball_x_m"].tolist() == [number] * N
+    assert found.flags == frozenset()
+
+
+def test_commas_and_points_in_one_table_are_not_guessed():
+    rows = [[i, i, "1,234", "4.5"] for i in range(N)] + [[N, N, "1,5", 1.0]]
+    found = table([["frame", "t_s", "ball_x_m", "ball_y_m"], *rows])
+    assert np.isnan(found.columns["ball_x_m"][0])
+    assert found.flags == {"text-in-tracking"}
 
 
 def test_x_without_y_is_no_position():

@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import os
 import pickle
+import subprocess
 import sys
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from multiprocessing import get_context
@@ -12,8 +13,18 @@ from types import SimpleNamespace
 
 import pytest
 
-from grader.read import Reader, ReaderFailedError, ReadRequest, UnreadableError, limits, read_isolated, read_workbook
+from grader.read import (
+    BookCell,
+    Reader,
+    ReaderFailedError,
+    ReadRequest,
+    UnreadableError,
+    limits,
+    read_isolated,
+    read_workbook,
+)
 from grader.read import worker as worker_module
+from grader.read.book import Sheet
 
 # A process that does as the file's first letter says, and reads every other file as usual.
 STUNTS = """
@@ -45,6 +56,26 @@ def reader():
 def test_an_isolated_reader_reads_as_the_plain_one_does(reader, good_bytes):
     request = ReadRequest("w.xlsx", good_bytes)
     assert reader.read(request) == read_workbook(request) == read_isolated(request)
+
+
+def test_sheets_travel_between_processes_as_they_are(good_bytes):
+    book = read_workbook(ReadRequest("w.xlsx", good_bytes))
+    blank = Sheet("Blank", is_visible=False, cells={}, merges=((1, 2, 3, 4),))
+    sheets = (*book.sheets, blank)
+    arrived = worker_module._PlainUnpickler(io.BytesIO(pickle.dumps(sheets))).load()
+    assert arrived == sheets
+    assert all(isinstance(cell, BookCell) for sheet in arrived for cell in sheet.cells.values())
+
+
+HEAVY = ("numpy", "pandas", "openpyxl", "assignments", "sqlalchemy")
+
+
+def test_the_reading_process_starts_light():
+    """It is started once for some 200 files: numpy alone would cost as much as reading ten of them."""
+    script = f"import grader.read.worker, sys; sys.exit(', '.join(m for m in {HEAVY} if m in sys.modules))"
+    command = [sys.executable, "-c", script]
+    done = subprocess.run(command, env=worker_module._environment(), capture_output=True, check=False)
+    assert done.stderr == b"\n"
 
 
 @pytest.mark.parametrize("data", [b"", b"a;b\n1;2", b"%PDF", bytes(limits.FILE_BYTES + 1)])
@@ -136,6 +167,17 @@ def test_a_process_that_dies_between_two_files_is_replaced(good_bytes):
 def test_a_process_that_cannot_start_is_our_failure():
     with pytest.raises(ReaderFailedError, match="cannot be started"), Reader(command="1/0") as reader:
         reader.read(ReadRequest("w.xlsx", b"x"))
+
+
+def test_only_the_process_that_started_a_reader_ends_it(good_bytes):
+    """A forked child would end its parent's."""
+    with Reader() as reader:
+        reader.read(ReadRequest("w.xlsx", good_bytes))
+        process = reader._process
+        worker_module._close_own(reader, os.getpid() + 1)
+        assert process.poll() is None
+        worker_module._close_own(reader, os.getpid())
+        assert process.poll() is not None
 
 
 class Stranger:
