@@ -109,10 +109,13 @@ SOURCE_HINTS: Mapping[str, str] = {
 
 
 def with_marks(diagnosis: Iterable[Diagnosis], findings: Iterable[Finding]) -> tuple[Diagnosis, ...]:
-    """Add a hint for each mistake that a single finding tells of, such as a scale turned over."""
+    """Add a hint for each mistake that a single finding tells of, such as a scale turned over.
+
+    A cell that is explained already gets no second explanation: the size of −e fits a reversed sign as well.
+    """
     diagnosis = tuple(diagnosis)
-    known = {(code, id_) for d in diagnosis for code in d.codes for id_ in d.ids}
-    marks = [f for f in findings if f.mistake and (f.mistake, f.question_id) not in known]
+    explained = {id_ for item in diagnosis for id_ in item.ids}
+    marks = [finding for finding in findings if finding.mistake and finding.question_id not in explained]
     return (*(_mark(finding) for finding in marks), *diagnosis)
 
 
