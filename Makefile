@@ -10,7 +10,7 @@ help:
 	@echo "make check     lint, types and import contracts only (before every push)"
 	@echo "make accuracy  the long accuracy runs against known truth"
 	@echo "make bench     the benchmarks"
-	@echo "make mutants   change the arithmetic of grades one bit at a time and see that a test notices"
+	@echo "make mutants   change what decides about grades one bit at a time and see that a test notices (ROOM=name: one room)"
 	@echo "make gallery   the pictures of all scenes in docs/"
 	@echo "make clean     remove the virtual environment and caches"
 
@@ -41,11 +41,10 @@ bench: .venv/.dev
 
 mutants: .venv/.dev
 	$(BIN)/pip install --quiet --disable-pip-version-check "mutmut>=3.3"
-	$(BIN)/mutmut run
-	$(BIN)/mutmut results
+	$(BIN)/python tools/mutants.py $(ROOM)
 
 gallery: .venv/.dev
 	$(BIN)/python tools/gallery.py
 
 clean:
-	rm -rf .venv mutants .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache
+	rm -rf .venv build .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache
