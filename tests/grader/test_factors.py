@@ -137,6 +137,15 @@ def test_a_rate_of_the_recording_is_no_playback(find):
     assert find(dict.fromkeys(SPEEDS, 1 / 60), key_changes=slow)[0].codes == ("K2b",)
 
 
+def test_what_scatters_about_the_truth_has_no_name(find):
+    """At 450 px/m and 480 frames a second, pixels per frame are 6 % below metres per second; clicks may come near."""
+    close = {"truth": {"px_per_m": 450.0, "fps": FPS}}
+    assert find({"v_f1": 0.968, "v_f2": 0.953, "v_b2": 1.01}, key_changes=close) == ()
+    assert find(dict.fromkeys(SPEEDS, 450 / FPS), key_changes=close)[0].codes == ("K1c",)
+    assert find(dict.fromkeys(SPEEDS, 0.95), key_changes=close)[0].codes == ("K1c",)
+    assert find(dict.fromkeys(SPEEDS, 0.956), key_changes=close) == ()
+
+
 def test_facts_that_a_key_does_not_hold_name_nothing(find):
     bare = {"truth": {}}
     assert find(dict.fromkeys(SPEEDS, SCALE), key_changes=bare) == ()
