@@ -362,6 +362,11 @@ def test_a_conclusion_that_the_textbook_does_not_know_is_refused_with_the_known_
     assert len(textbook("two-pucks").conclusion("M").formulas) == 3
 
 
+def test_a_model_without_a_textbook_is_refused_with_the_known_ones() -> None:
+    with pytest.raises(UnknownNameError, match=r"model: expected one of ballistic-pendulum, .*two-pucks, got 'golf'"):
+        textbook("golf")
+
+
 def test_mistakes_of_another_scene_are_left_out() -> None:
     book = textbook("fixed-pivot")
     assert {m.code for m in book.mistakes_about("I")} - {m.code for m in book.mistakes_about("I", "bat_and_ball")} == {

@@ -151,6 +151,14 @@ def test_mistakes_are_found_on_the_students_own_numbers_at_any_scale(factor: flo
     assert diagnosis.codes == ("E1",)
 
 
+def test_a_speed_may_have_come_from_the_rate_all_the_same() -> None:
+    """The speeds that are written explain nothing; omega L, which gives others, turned over does."""
+    desk = desk_of("soccer-kick", "s2")
+    speeds = {"v_f1": 1.1 * desk.key.values["v_f1"], "v_f2": 1.3 * desk.key.values["v_f2"]}
+    diagnosis = desk.told("e", {**speeds, "e": 1 / desk.key.values["e"]})
+    assert (diagnosis.codes, diagnosis.basis) == (("E1",), "own")
+
+
 # ---------------------------------------------------------------- what is not named
 
 NUMBER = Question("e", "e", "e", "number", "", 1.0, "", 0.02, "conclusion")
