@@ -139,7 +139,7 @@ def _digits(value: float, half_unit: float) -> float:
 
 
 def _sharper(value: float, half_unit: float, digits: int) -> float:
-    if half_unit == 0 or value == 0 or digits == 0:
+    if value == 0 or digits == 0:
         return half_unit
     return min(half_unit, 0.5 * 10.0 ** (math.floor(math.log10(abs(value))) - digits + 1))
 

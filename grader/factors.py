@@ -123,7 +123,7 @@ def _rate_names(
     submission: Submission, key: AnswerKey, questions: Mapping[str, Question]
 ) -> Iterable[tuple[str, float]]:
     fps = key.truth.get("fps", math.nan)
-    yield from (("K2", rate / fps) for rate in _PLAYBACK if abs(rate / fps - 1) > SPREAD)
+    yield from (("K2", rate / fps) for rate in _PLAYBACK)
     yield "K2b", 1 / fps
     own_rate = _own(submission, questions, "fps")
     if own_rate:

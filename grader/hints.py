@@ -130,7 +130,7 @@ def one_hint_a_cause(diagnosis: Iterable[Diagnosis]) -> tuple[Diagnosis, ...]:
     joined: dict[str, Diagnosis] = {}
     for item in diagnosis:
         cause = _cause(item)
-        first = joined.get(cause, replace(item, ids=()))
+        first = joined.get(cause, item)
         codes = first.codes if first.is_unique else item.codes
         joined[cause] = replace(first, codes=codes, ids=tuple(dict.fromkeys((*first.ids, *item.ids))))
     return tuple(joined.values())

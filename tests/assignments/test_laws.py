@@ -13,15 +13,17 @@ from hypothesis import strategies as st
 from assignments.load import assignment_ids, load_assignment
 from assignments.mistakes import ImpactNumbers
 from assignments.pinned_body import has_moved, is_possible, told, ways
+from assignments.slips import slips_of_mass, slips_of_rate
 from assignments.textbook import every_mistake, textbook, textbook_of
 from assignments.textbook.ballistic_pendulum import PendulumNumbers
 from assignments.textbook.free_rod import RodNumbers
 from assignments.textbook.hammer_block import HammerNumbers
 from assignments.textbook.spin_bounce import BounceNumbers
-from assignments.textbook.two_pucks import PuckNumbers
-from assignments.theory import Met, Mistake, Textbook, by_code, promised, value_of
+from assignments.textbook.two_pucks import PuckNumbers, _component
+from assignments.theory import Met, Mistake, Textbook, along, by_code, promised, unknown, value_of
 from assignments.variants import draw_variant
 from vml_course.errors import InputError, UnknownNameError
+from vml_course.model.truth import Realised
 
 SECRET = bytes(range(32))
 SCALE = 500.0
@@ -394,3 +396,69 @@ def test_what_is_answerable_has_a_true_value() -> None:
     assert book.true("v_b1", met) == pytest.approx(-4.288627509790391)
     with pytest.raises(KeyError):
         book.true("I", met)
+
+
+def test_slips_of_a_mass_and_of_a_rate_bring_their_factors() -> None:
+    mass, rate = slips_of_mass("X1", "M", lambda n: 2 * n), slips_of_rate("X2", "I", lambda n: 2 * n)
+    assert [(m.code, m.quantity, m.value(1.5)) for m in mass] == [
+        ("X1g", "M", 3000.0),
+        ("X1lb", "M", pytest.approx(3 * 2.20462)),
+        ("X1w", "M", pytest.approx(3 * 9.81)),
+    ]
+    assert [(m.code, m.quantity, m.value(1.5)) for m in rate] == [
+        ("X2d", "I", pytest.approx(math.radians(3))),
+        ("X2r", "I", pytest.approx(3 * math.pi / 30)),
+    ]
+    assert [
+        word in m.about and word in m.hint for m, word in zip(mass, ("grams", "pounds", "weight"), strict=True)
+    ] == [True] * 3
+    assert ["deg/s" in rate[0].about, "minute" in rate[1].about] == [True, True]
+    assert ["degrees" in rate[0].hint, "rev/min" in rate[1].hint] == [True, True]
+
+
+def test_components_of_the_pucks_are_those_of_the_states() -> None:
+    _, met = met_of("two-pucks")
+    for body, index in (("a", met.impact.striker), ("b", met.impact.struck)):
+        for side, states in (("1", met.impact.before), ("2", met.impact.after)):
+            for axis in (0, 1):
+                assert _component(body, side, axis)(met) == states[index, axis]
+
+
+def test_an_unknown_is_the_one_that_the_impact_names() -> None:
+    _, met = met_of("two-pucks")
+    known = Met(
+        dataclasses.replace(met.impact, unknowns={"e": Realised(0.7, 0.6, 0.5), "M": Realised(0.4, 0.3, 0.2)}),
+        met.given,
+        met.parameters,
+    )
+    assert (unknown("e")(known), unknown("M")(known)) == (0.7, 0.4)
+
+
+def test_a_hammer_is_told_its_own_gravity_or_the_standard_one() -> None:
+    book = textbook("hammer-block")
+    assert book.record({}, {"g": 1.62}).g == 1.62
+    assert book.record({}, {}).g == 9.81
+
+
+def test_mistakes_count_a_ball_that_moves_before() -> None:
+    """v1 = 10, u1 = -2: whatever stands for the approach adds both."""
+    n = dataclasses.replace(KICK, u1=-2.0, D=0.2)
+    mistakes = every_mistake()
+    assert mistakes["E12"].value(n) == pytest.approx((15 - 3.28084 * 8) / (3.28084 * 10 + 2))
+    assert mistakes["E12b"].value(n) == pytest.approx((3.28084 * 15 - 8) / (10 + 3.28084 * 2))
+    s1, s2 = math.sin(0.4) / 0.4, math.sin(0.32) / 0.32
+    assert mistakes["E17"].value(n) == pytest.approx((15 - s2 * 8) / (s1 * 10 + 2))
+    inertia = 0.5 * 0.5 * 17 / 4
+    assert mistakes["E9"].value(n) == pytest.approx((inertia * 256 + 0.5 * 225) / (inertia * 400 + 0.5 * 4))
+    assert mistakes["I12"].value(n) == pytest.approx(0.4 * 0.5 * 0.1 * 17 / 4)
+
+
+def test_masses_and_energies_of_whole_speeds() -> None:
+    n = dataclasses.replace(PUCKS, a2x=2.0, a2y=0.0)
+    assert every_mistake()["PM3"].value(n) == pytest.approx(200 / 21)
+    assert every_mistake()["PE10"].value(n) == pytest.approx((20 / 1.8 * 4 + 200) / (20 / 1.8 * 25))
+
+
+def test_a_component_along_a_direction_is_the_product_of_both() -> None:
+    assert along((3.0, 4.0), (0.6, 0.8)) == pytest.approx(5.0)
+    assert along((3.0, 4.0), (-0.8, 0.6)) == pytest.approx(0.0)

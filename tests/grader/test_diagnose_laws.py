@@ -250,6 +250,25 @@ def test_zeros_that_a_spreadsheet_hides_are_believed(speeds, codes) -> None:
     assert (found and found.codes) == codes
 
 
+def test_another_right_answer_tells_that_the_numbers_were_used_as_written() -> None:
+    """I follows from the very numbers that are written, so the ratio 8.016 / 10.02 is exact and fits alone."""
+    desk = desk_of("soccer-kick")
+    coarse = {**KICK, "omega1": 20.0, "omega2": 16.0, "v_b2": 15.0, "e": 0.8}
+
+    def codes(values):
+        return diagnose_answer("e", desk.submission(values), desk.key, desk.questions).codes
+
+    inertia = desk.key.given["m"] * desk.key.given["L"] * 15.0 / 4.0
+    assert codes(coarse) == codes({**coarse, "I": 77.7}) == ("E17b", "E19")
+    assert codes({**coarse, "I": inertia}) == ("E19",)
+
+
+def test_rates_of_nothing_are_no_failure() -> None:
+    """The speed that a rate of zero gives is zero, whatever digits the speed's own cell has."""
+    desk = desk_of("soccer-kick")
+    assert desk.told("e", {"omega1": 0.0, "omega2": 0.0, "e": 77.7}, digits=3) is None
+
+
 @pytest.mark.parametrize(
     ("outcomes", "needed"),
     [
@@ -279,5 +298,7 @@ def test_common_factors_are_put_into_words_unless_too_many_fit() -> None:
     assert "degrees" in told[1].hint
     assert "frame rate" in told[1].hint
     assert "half of L" in told[2].hint
+    clock = Factor(("K2",), 0.06, ("v_f1", "omega1"))
+    assert diagnose_factors((clock,), desk.key, desk.questions)[0].subject == "velocities"
     three = Factor(("K1", "K2", "K3"), 9.0, ("v_f1", "v_b2"))
     assert len(diagnose_factors((three,), desk.key, desk.questions)) == 1

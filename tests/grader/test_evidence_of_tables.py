@@ -141,6 +141,7 @@ def test_a_speed_is_as_sharp_as_a_line_through_the_clicks(asked, rms_px):
 def test_a_rate_is_as_sharp_as_the_line_of_a_direction_of_its_length(asked):
     assert spread_of_measured(asked("omega1")) == pytest.approx(spread_of_measured(asked("v_b2")) / 0.5)
     assert spread_of_measured(asked("omega1", points=("foot", "knot", "ball"))) == 0.0
+    assert spread_of_measured(asked("omega1", points=("foot", "knee"))) == spread_of_measured(asked("omega1"))
     lost = asked("omega1")
     lost.table.fit.own_m[:20, 0] = np.nan
     assert spread_of_measured(lost) == pytest.approx(spread_of_measured(asked("omega1")))

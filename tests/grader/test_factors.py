@@ -27,7 +27,9 @@ def find(kit, assignment):
 
     def find(changes, only=None, key_changes=None):
         asked = {id_: q for id_, q in questions.items() if only is None or id_ in only}
-        changes = {id_: true[id_] * value if id_ in true and value != 0 else value for id_, value in changes.items()}
+        changes = {
+            id_: true[id_] * value if id_ in true and value not in {0, "?"} else value for id_, value in changes.items()
+        }
         submission = kit.submission_of(assignment, {**true, **changes})
         return find_factors(submission, replace(kit.key_of(numbers), **(key_changes or {})), asked)
 
@@ -46,6 +48,11 @@ def test_the_truth_has_no_factor(find):
         (1 / SCALE, ("K1b",)),
         (SCALE**2, ("K1b",)),
         (39.3701, ("K3b",)),
+        (39.3701 * 1.015, ("K3b",)),
+        (100.0 / 1.024, ("K4",)),
+        (1000.0, ("K4b",)),
+        (1000.0 / 1.024, ("K4b",)),
+        (-1.0, ("K6",)),
         (0.5, ("K5b",)),
         (25 / FPS, ("K2",)),
         (1 / FPS, ("K2b",)),
@@ -144,6 +151,46 @@ def test_what_scatters_about_the_truth_has_no_name(find):
     assert find(dict.fromkeys(SPEEDS, 450 / FPS), key_changes=close)[0].codes == ("K1c",)
     assert find(dict.fromkeys(SPEEDS, 0.95), key_changes=close)[0].codes == ("K1c",)
     assert find(dict.fromkeys(SPEEDS, 0.956), key_changes=close) == ()
+
+
+def test_two_of_a_kind_are_enough_to_be_judged_by_themselves(find):
+    """Centimetres of two speeds are seen beside a single rate, and degrees of two rates beside a single speed."""
+    assert [f.codes for f in find({"v_f1": 100.0, "v_f2": 100.0}, only={"v_f1", "v_f2", "omega1"})] == [("K4",)]
+    assert [f.codes for f in find(dict.fromkeys(RATES, 57.2958), only={"v_f1", *RATES})] == [("K9",)]
+    assert find({"v_f1": 100.0, "v_f2": 100.0, "omega1": 57.3}, only={"v_f1", "v_f2", "omega1"})[0].codes == ("K4",)
+
+
+def test_half_of_the_speeds_are_not_most(kit, assignment):
+    """Of four that move, two that agree prove nothing."""
+    numbers = kit.impact()
+    moving = {"v_f1": 10.0, "v_f2": 8.0, "v_b1": -4.0, "v_b2": 16.0}
+    key = kit.key_of(numbers, values={**kit.true_values(numbers), **moving})
+    questions = {question.id: question for question in assignment.questions}
+    written = {**kit.true_values(numbers), "v_f1": 1000.0, "v_f2": 800.0, "v_b1": -4.0, "v_b2": 32.0}
+    assert find_factors(kit.submission_of(assignment, written), key, questions) == ()
+    written["v_b2"] = 1600.0
+    assert find_factors(kit.submission_of(assignment, written), key, questions)[0].codes == ("K4",)
+
+
+def test_own_scale_and_rate_that_are_not_asked_or_not_read_name_nothing(find):
+    only = {*SPEEDS, *RATES}
+    assert find(dict.fromkeys(SPEEDS, SCALE), only=only)[0].codes == ("K1",)
+    assert find(dict.fromkeys(SPEEDS, 1 / FPS), only=only)[0].codes == ("K2b",)
+    assert find({**dict.fromkeys(SPEEDS, 1.2), "px_per_m": "?"}) == ()
+
+
+def test_answers_without_a_truth_are_left_out(kit, find):
+    true = kit.true_values(kit.impact())
+    assert find(dict.fromkeys(SPEEDS, 100.0), key_changes={"values": {}}) == ()
+    without = {id_: value for id_, value in true.items() if id_ != "v_f1"}
+    (found,) = find(dict.fromkeys(SPEEDS, 100.0), key_changes={"values": without})
+    assert found.ids == ("v_f2", "v_b2")
+
+
+@pytest.mark.parametrize("fps", [24.0, 25.0, 30.0, 50.0, 60.0])
+def test_the_recordings_own_rate_is_no_slip(find, fps):
+    players = {"truth": {"px_per_m": SCALE, "fps": fps}}
+    assert find(dict.fromkeys((*SPEEDS, *RATES), 1.04), key_changes=players) == ()
 
 
 def test_facts_that_a_key_does_not_hold_name_nothing(find):

@@ -42,6 +42,11 @@ def test_a_mistake_without_a_sentence_is_told_by_its_short_form():
     assert hint_for((bare,)) == f"Your value fits this slip: {about(bare)}. Check that step."
 
 
+def test_a_mistake_with_a_sentence_is_told_by_it():
+    assert hint_for(("K3",)) == "These look like feet per second. Use metres."
+    assert "looks turned over" in hint_for(("E1",))
+
+
 def test_names_are_those_of_the_scene():
     names = names_in("bat_and_ball")
     assert "bat" in hint_for(("E4",), names) or "barrel" in hint_for(("E4",), names)
