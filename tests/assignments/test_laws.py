@@ -34,11 +34,15 @@ scenes = st.sampled_from(assignment_ids())
 
 
 @cache
+def parameters_of(name: str) -> tuple[str, dict[str, float]]:
+    assignment = load_assignment(name)
+    return assignment.scene, dict(draw_variant(assignment, SECRET, "s1").parameters)
+
+
 def met_of(name: str) -> tuple[Textbook, Met]:
     """An assignment's textbook and the impact that its first variant promises."""
-    assignment = load_assignment(name)
-    parameters = draw_variant(assignment, SECRET, "s1").parameters
-    return textbook_of(assignment.scene), promised(assignment.scene, parameters)
+    scene, parameters = parameters_of(name)
+    return textbook_of(scene), promised(scene, parameters)
 
 
 def numbers_of(name: str):
