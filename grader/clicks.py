@@ -49,7 +49,7 @@ def _line_sd(asked: Asked, dimension: str) -> float:
     if dimension == "acceleration":  # of the parabola through everything after the impact
         after = max(LEAST_FRAMES, asked.table.rows(asked.key.truth["t_impact_s"])[1])
         return noise_m * fps**2 * math.sqrt(720.0 / after**5)
-    frames = max(LEAST_FRAMES, round(fps * min(LINE_S, asked.table.window_s / 2)))
+    frames = max(LEAST_FRAMES, math.floor(fps * min(LINE_S, asked.table.window_s / 2)))  # whole ones on one side
     of_two_marks = math.sqrt(2.0)  # a direction has two ends, and a speed may come from it
     slope_sd = of_two_marks * noise_m * fps * math.sqrt(12.0 / (frames * (frames**2 - 1)))
     return slope_sd if dimension == "velocity" else slope_sd / _length_m(fit, asked.key.scene)

@@ -14,7 +14,7 @@ from statistics import median
 from assignments.model import AnswerKey, Question
 from assignments.names import names_in
 from assignments.textbook import textbook_of
-from assignments.theory import Formula, Mistake, Numbers, value_of
+from assignments.theory import Formula, Mistake, Numbers, Textbook, value_of
 from grader.arm import CODE as ARM
 from grader.arm import arm_hint
 from grader.hints import hint_for
@@ -22,6 +22,7 @@ from grader.judging import follows_from
 from grader.model import Diagnosis, Factor, Outcome, Submission
 from grader.own import OwnNumbers, own_numbers, true_numbers
 from grader.stated import Stated, state
+from grader.weighing import Cell, likely
 
 OWN_TOLERANCE = 0.005
 FINE_TOLERANCE = 0.0005  # beyond the printed digits
@@ -69,8 +70,10 @@ def diagnose_answer(
     if any(follows_from(stated, way, formula) for way in ways for formula in right):
         return None
     digits = usual_digits(submission, questions)
-    codes, basis = _from_own(_sharp(stated, digits), [_sharp_way(way, digits) for way in ways], mistakes), "own"
-    codes = codes or _from_own(stated, ways, mistakes)
+    others = _other_cells(quantity, submission, book, questions, digits)
+    sharp_ways = [_sharp_way(way, digits) for way in ways]
+    codes, basis = _from_own(_sharp(stated, digits), sharp_ways, mistakes, others), "own"
+    codes = codes or _from_own(stated, ways, mistakes, others)
     if not codes:
         codes, basis = _from_truth(stated.value, key, questions[quantity], mistakes), "truth"
     if not 1 <= len(codes) <= LARGEST_GROUP:
@@ -93,13 +96,25 @@ def _misfit(stated: Stated, candidate: Candidate, tolerance: float) -> float:
     return distance / allowed if allowed > 0 and math.isfinite(distance) else math.inf
 
 
-def _from_own(stated: Stated, ways: Sequence[OwnNumbers], mistakes: Sequence[Mistake]) -> tuple[str, ...]:
+def _other_cells(
+    quantity: str, submission: Submission, book: Textbook, questions: Mapping[str, Question], digits: int
+) -> tuple[Cell, ...]:
+    """Return the other conclusions that can be read, with their right formulas."""
+    asked = [item for item in book.concluded if item.id != quantity and item.id in questions]
+    stated = [(item, state(submission.answer(item.id), questions[item.id])) for item in asked]
+    return tuple(Cell(_sharp(one, digits), item.formulas) for item, one in stated if isinstance(one, Stated))
+
+
+def _from_own(
+    stated: Stated, ways: Sequence[OwnNumbers], mistakes: Sequence[Mistake], others: Sequence[Cell]
+) -> tuple[str, ...]:
     """Match on each way to read the student's own numbers; the first that explains the answer counts."""
     for way in ways:
         candidates = (_candidate(mistake.code, mistake.formula, way) for mistake in mistakes)
         codes = matching(stated, (candidate for candidate in candidates if math.isfinite(candidate.value)))
         if codes:
-            return codes
+            formulas = {mistake.code: mistake.formula for mistake in mistakes if mistake.code in codes}
+            return likely(stated, formulas, way, others)
     return ()
 
 
@@ -124,7 +139,7 @@ def _digits(value: float, half_unit: float) -> float:
 
 
 def _sharper(value: float, half_unit: float, digits: int) -> float:
-    if half_unit == 0 or value == 0 or digits == 0:
+    if value == 0 or digits == 0:
         return half_unit
     return min(half_unit, 0.5 * 10.0 ** (math.floor(math.log10(abs(value))) - digits + 1))
 

@@ -20,6 +20,9 @@ SPREAD = 0.04
 MATCH = 0.025
 """A factor has a name when the name's factor is this close."""
 
+CLEAR = 3.0
+"""And so many times closer than the right value: what scatters about the truth has no name."""
+
 _PLAYBACK = (24.0, 25.0, 29.97, 30.0, 50.0, 59.94, 60.0)
 _FAR = 1e9  # a number this far off tells of no slip of units
 _DEG, _RPM = 180 / math.pi, 30 / math.pi
@@ -84,13 +87,15 @@ def _shared(ratios: Mapping[str, float]) -> tuple[float, tuple[str, ...]] | None
 def _codes(factor: float, names: Iterable[tuple[str, float]], tolerance: float) -> tuple[str, ...]:
     if abs(factor - 1) <= max(tolerance, MATCH):
         return ()
-    fits = {
-        code: abs(factor / value - 1)
-        for code, value in names
-        if value and math.isfinite(value) and abs(factor / value - 1) <= MATCH and abs(value - 1) > 2 * MATCH
-    }
-    definite = tuple(dict.fromkeys(code for code in fits if code not in _VAGUE))
-    return definite or tuple(dict.fromkeys(fits))
+    near = min(MATCH, abs(factor - 1) / CLEAR)
+    fits = tuple(
+        dict.fromkeys(
+            code
+            for code, value in names
+            if math.isfinite(value) and abs(value - 1) > 2 * MATCH and abs(factor - value) <= near * abs(value)
+        )
+    )
+    return tuple(code for code in fits if code not in _VAGUE) or fits
 
 
 def _velocity_names(
@@ -118,7 +123,7 @@ def _rate_names(
     submission: Submission, key: AnswerKey, questions: Mapping[str, Question]
 ) -> Iterable[tuple[str, float]]:
     fps = key.truth.get("fps", math.nan)
-    yield from (("K2", rate / fps) for rate in _PLAYBACK if abs(rate / fps - 1) > SPREAD)
+    yield from (("K2", rate / fps) for rate in _PLAYBACK)
     yield "K2b", 1 / fps
     own_rate = _own(submission, questions, "fps")
     if own_rate:

@@ -109,10 +109,13 @@ SOURCE_HINTS: Mapping[str, str] = {
 
 
 def with_marks(diagnosis: Iterable[Diagnosis], findings: Iterable[Finding]) -> tuple[Diagnosis, ...]:
-    """Add a hint for each mistake that a single finding tells of, such as a scale turned over."""
+    """Add a hint for each mistake that a single finding tells of, such as a scale turned over.
+
+    A cell that is explained already gets no second explanation: the size of −e fits a reversed sign as well.
+    """
     diagnosis = tuple(diagnosis)
-    known = {(code, id_) for d in diagnosis for code in d.codes for id_ in d.ids}
-    marks = [f for f in findings if f.mistake and (f.mistake, f.question_id) not in known]
+    explained = {id_ for item in diagnosis for id_ in item.ids}
+    marks = [finding for finding in findings if finding.mistake and finding.question_id not in explained]
     return (*(_mark(finding) for finding in marks), *diagnosis)
 
 
@@ -127,7 +130,7 @@ def one_hint_a_cause(diagnosis: Iterable[Diagnosis]) -> tuple[Diagnosis, ...]:
     joined: dict[str, Diagnosis] = {}
     for item in diagnosis:
         cause = _cause(item)
-        first = joined.get(cause, replace(item, ids=()))
+        first = joined.get(cause, item)
         codes = first.codes if first.is_unique else item.codes
         joined[cause] = replace(first, codes=codes, ids=tuple(dict.fromkeys((*first.ids, *item.ids))))
     return tuple(joined.values())

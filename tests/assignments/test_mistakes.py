@@ -66,8 +66,15 @@ def test_the_closed_form_gives_the_velocities_of_the_paper() -> None:
     found = numbers_of_impact({"e": 11 / 15, "I": 1.8816, "m": 0.5, "L": 0.56, "D": 0.22, "omega1": 15 / 0.56})
     assert (found.v1, found.v2, found.u1, found.u2) == pytest.approx((15, 13, 0, 24), abs=1e-12)
     assert (found.e, found.I) == pytest.approx((11 / 15, 1.8816), rel=1e-12)
+    assert (found.D, found.tilt_rad, math.isnan(found.S)) == (0.22, 0.0, True)
 
 
 def test_the_closed_form_keeps_e_and_inertia_when_the_ball_comes_in() -> None:
     found = numbers_of_impact({"e": 0.6, "I": 0.9, "m": 0.3, "L": 0.5, "omega1": 20.0, "u1": -4.0})
-    assert (found.e, found.I) == pytest.approx((0.6, 0.9), rel=1e-12)
+    assert (found.e, found.I, found.u1) == pytest.approx((0.6, 0.9, -4.0), rel=1e-12)
+    assert math.isnan(found.D)
+
+
+def test_the_closed_form_keeps_scale_and_tilt() -> None:
+    found = numbers_of_impact({"e": 0.6, "I": 0.9, "m": 0.3, "L": 0.5, "omega1": 20.0}, px_per_m=500.0, tilt_rad=0.1)
+    assert (found.S, found.tilt_rad) == (500.0, 0.1)

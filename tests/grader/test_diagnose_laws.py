@@ -1,0 +1,304 @@
+"""A mistake planted in true numbers is found by its own entry, in every textbook; the truth is never told a mistake."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from functools import cache
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from assignments.load import assignment_ids, load_assignment
+from assignments.model import AnswerKey, Assignment, Question
+from assignments.textbook import textbook_of
+from assignments.theory import Textbook, promised, value_of
+from assignments.variants import draw_variant
+from grader.diagnose import (
+    Candidate,
+    diagnose_answer,
+    diagnose_factors,
+    matching,
+    needs_diagnosis,
+    usual_digits,
+)
+from grader.model import Answer, Factor, Kind, Outcome, Submission
+from grader.stated import Stated
+
+SECRET = bytes(range(32))
+SCALE, FPS = 500.0, 480.0
+
+
+@dataclass(frozen=True, eq=False)
+class Desk:
+    """An assignment, its textbook, and a key without a film."""
+
+    assignment: Assignment
+    book: Textbook
+    key: AnswerKey
+
+    @property
+    def questions(self) -> dict[str, Question]:
+        return {question.id: question for question in self.assignment.questions}
+
+    def submission(self, values) -> Submission:
+        answers = {
+            name: value
+            if isinstance(value, Answer)
+            else Answer(Kind.NUMBER, float(value), f"{value:.15g}", self.questions[name].unit, "Answers!C6", "name")
+            for name, value in values.items()
+            if name in self.questions
+        }
+        return Submission("w.xlsx", self.assignment.id, "CODE1", answers, {})
+
+    def told(self, quantity: str, changes=None, digits: int = 15):
+        values = {**self.key.values, **(changes or {})}
+        written = {n: v if isinstance(v, Answer) else float(f"{v:.{digits}g}") for n, v in values.items()}
+        return diagnose_answer(quantity, self.submission(written), self.key, self.questions)
+
+
+@cache
+def desk_of(name: str, student: str = "s1") -> Desk:
+    assignment = load_assignment(name)
+    book = textbook_of(assignment.scene)
+    met = promised(assignment.scene, draw_variant(assignment, SECRET, student).parameters)
+    numbers = replace(book.numbers_of(met), S=SCALE)
+    values = {item.id: item.true(met) for item in book.measured}
+    values |= {item.id: value_of(item.formula, numbers) for item in book.concluded}
+    asked = {question.id for question in assignment.questions}
+    values = {name: value for name, value in values.items() if name in asked}
+    nothing = np.zeros(0)
+    truth = {"px_per_m": SCALE, "fps": FPS}
+    key = AnswerKey(
+        assignment.id, student, "CODE1", values, {}, {}, met.given, truth, "0" * 64, {}, (), nothing, nothing,
+        np.zeros((0, 0, 2)), {}, assignment.scene,
+    )  # fmt: skip
+    return Desk(assignment, book, key)
+
+
+def first_way(desk: Desk, values):
+    fields = {item.field: values[item.id] for item in desk.book.measured if item.id in values}
+    first = next(iter(desk.book.complete({**desk.book.resting(desk.questions), **fields}, desk.key.given)))
+    return desk.book.record(first, desk.key.given, SCALE)
+
+
+def planted(desk: Desk):
+    """Each mistake whose value is clear of the right one, with it."""
+    numbers = first_way(desk, desk.key.values)
+    for concluded in desk.book.concluded:
+        right = value_of(concluded.formula, numbers)
+        if concluded.id in desk.questions:
+            for mistake in desk.book.mistakes_about(concluded.id, desk.assignment.scene):
+                value = mistake.value(numbers)
+                if math.isfinite(value) and value != 0 and abs(value / right - 1) > 0.02:
+                    yield mistake, value, numbers
+
+
+@pytest.mark.parametrize("name", assignment_ids())
+def test_a_mistake_planted_in_true_numbers_is_told_by_its_own_entry(name: str) -> None:
+    desk = desk_of(name)
+    cases = list(planted(desk))
+    assert len(cases) > 15
+    for mistake, value, numbers in cases:
+        diagnosis = desk.told(mistake.quantity, {mistake.quantity: value})
+        assert diagnosis is not None, mistake.code
+        assert mistake.code in diagnosis.codes
+        assert (diagnosis.subject, diagnosis.basis, diagnosis.ids) == (mistake.quantity, "own", (mistake.quantity,))
+        others = [m for m in desk.book.mistakes_about(mistake.quantity, desk.assignment.scene) if m != mistake]
+        is_exact = len(f"{value:.15g}") > 8  # a whole number such as -1 reads as rounded
+        if is_exact and all(
+            abs(m.value(numbers) / value - 1) > 1e-3 for m in others if math.isfinite(m.value(numbers))
+        ):
+            assert diagnosis.codes == (mistake.code,)
+            assert "{" not in diagnosis.hint
+
+
+@settings(deadline=None, max_examples=60)
+@given(st.sampled_from(assignment_ids()), st.integers(0, 5), st.integers(3, 15))
+def test_the_truth_is_never_told_a_mistake(name: str, student: int, digits: int) -> None:
+    desk = desk_of(name, f"s{student}")
+    for concluded in desk.book.concluded:
+        if concluded.id in desk.questions:
+            assert desk.told(concluded.id, digits=digits) is None
+
+
+@settings(deadline=None, max_examples=60)
+@given(st.sampled_from(assignment_ids()), st.floats(0.8, 1.25), st.sampled_from([3, 4, 6]))
+def test_what_follows_from_wrong_numbers_is_told_no_mistake(name: str, factor: float, digits: int) -> None:
+    """A velocity that was measured badly spoils what follows from it, and its formula is right all the same."""
+    desk = desk_of(name)
+    changed = next(item.id for item in reversed(desk.book.measured) if item.id in desk.key.values)
+    values = {
+        n: float(f"{v:.{digits}g}") for n, v in {**desk.key.values, changed: factor * desk.key.values[changed]}.items()
+    }
+    for concluded in desk.book.concluded:
+        own = value_of(concluded.formula, first_way(desk, values))
+        if concluded.id in desk.questions and math.isfinite(own) and own != 0:
+            follows = {**values, concluded.id: own}
+            assert diagnose_answer(concluded.id, desk.submission(follows), desk.key, desk.questions) is None
+
+
+@settings(deadline=None, max_examples=30)
+@given(st.floats(0.1, 10.0))
+def test_mistakes_are_found_on_the_students_own_numbers_at_any_scale(factor: float) -> None:
+    """Speeds that are all off by a factor leave a turned-over e what it is."""
+    desk = desk_of("soccer-kick")
+    speeds = {name: factor * desk.key.values[name] for name in ("v_f1", "v_f2", "v_b1", "v_b2", "omega1", "omega2")}
+    diagnosis = desk.told("e", {**speeds, "e": 1 / desk.key.values["e"]})
+    assert diagnosis is not None
+    assert diagnosis.codes == ("E1",)
+
+
+def test_a_speed_may_have_come_from_the_rate_all_the_same() -> None:
+    """The speeds that are written explain nothing; omega L, which gives others, turned over does."""
+    desk = desk_of("soccer-kick", "s2")
+    speeds = {"v_f1": 1.1 * desk.key.values["v_f1"], "v_f2": 1.3 * desk.key.values["v_f2"]}
+    diagnosis = desk.told("e", {**speeds, "e": 1 / desk.key.values["e"]})
+    assert (diagnosis.codes, diagnosis.basis) == (("E1",), "own")
+
+
+# ---------------------------------------------------------------- what is not named
+
+NUMBER = Question("e", "e", "e", "number", "", 1.0, "", 0.02, "conclusion")
+
+
+def test_what_cannot_be_read_is_told_nothing() -> None:
+    desk = desk_of("soccer-kick")
+    assert desk.told("e", {"e": Answer(Kind.TEXT, None, "about half", "", "Answers!C6", "name")}) is None
+    assert desk.told("e", {"e": Answer()}) is None
+
+
+def test_without_own_numbers_only_what_is_clear_on_the_truth_is_told() -> None:
+    desk = desk_of("two-pucks")
+
+    def told(value: float):
+        return diagnose_answer("e", desk.submission({"e": value}), desk.key, desk.questions)
+
+    e = desk.key.values["e"]
+    found = told(-e)
+    assert (found.codes, found.basis) == (("PE9",), "truth")
+    assert told(-e * 1.02).codes == ("PE9",)
+    assert told(-e * 1.04) is None
+    assert told(e) is None
+    assert told(e * (1 + 1.9 * desk.questions["e"].tolerance)) is None
+    assert told(77.0) is None
+
+
+def test_a_group_that_is_near_on_the_truth_is_told_as_one() -> None:
+    """On the truth 1/e and its neighbours within three times the distance, or 3 %, are all named."""
+    desk = desk_of("soccer-kick")
+    found = diagnose_answer("e", desk.submission({"e": 1 / desk.key.values["e"]}), desk.key, desk.questions)
+    distances = {
+        m.code: abs(1 / desk.key.values["e"] / m.value(first_way(desk, desk.key.values)) - 1)
+        for m in desk.book.mistakes_about("e", "soccer_kick")
+    }
+    near = {code for code, distance in distances.items() if distance <= 0.03}
+    assert set(found.codes if found else ()) == (near if len(near) <= 3 else set())
+
+
+def test_codes_that_fit_to_the_digits_go_before_those_within_half_a_percent() -> None:
+    stated = Stated(1.0, 0.0, "1", unit_given=True)
+    exact, near, far = Candidate("A", 1.0004), Candidate("B", 1.004), Candidate("C", 1.006)
+    assert matching(stated, (near, exact)) == ("A",)
+    assert matching(stated, iter((far, near))) == ("B",)
+    assert matching(stated, (far,)) == ()
+    assert matching(stated, (Candidate("D", 0.0), Candidate("E", math.inf), Candidate("F", math.nan))) == ()
+    assert matching(Stated(-1.0, 0.0, "-1", unit_given=True), (Candidate("G", -1.0004),)) == ("G",)
+
+
+@settings(deadline=None)
+@given(st.floats(0.0, 0.1), st.floats(0.0, 0.1), st.floats(-0.3, 0.3))
+def test_rounding_of_the_answer_and_of_what_it_comes_from_are_both_allowed(
+    half: float, rounding: float, off: float
+) -> None:
+    fits = matching(Stated(1.0 + off, half, "", unit_given=True), (Candidate("A", 1.0, rounding),)) == ("A",)
+    if abs(abs(off) - max(half + rounding, 0.005)) > 1e-9:
+        assert fits == (abs(off) < max(half + rounding, 0.005))
+
+
+@pytest.mark.parametrize(
+    ("texts", "digits"),
+    [
+        (("12.4", "0.7", "3.05"), 3),
+        (("12.4", "0.700", "3.05"), 3),
+        (("1.234", "2.345", "0.0678", "9"), 4),
+        (("12.4", "0.7"), 0),
+        (("12.4", "0.7", "3.0512345"), 0),
+        (("-12.4", "5", "-312"), 3),
+    ],
+)
+def test_the_usual_number_of_digits_is_that_of_most_cells(texts, digits: int) -> None:
+    cells = {
+        name: Answer(Kind.NUMBER, float(text), text, "", "", "name") for name, text in zip("abcd", texts, strict=False)
+    }
+    asked = {name: replace(NUMBER, id=name) for name in cells}
+    assert usual_digits(Submission("w.xlsx", "a", "", cells, {}), asked) == digits
+
+
+KICK = {"v_f1": 10.02, "v_f2": 8.016, "v_b1": 0.0, "v_b2": 15.03, "omega1": 20.04, "omega2": 16.03}
+
+
+@pytest.mark.parametrize(
+    ("speeds", "codes"), [(KICK, ("E19",)), ({**KICK, "omega1": 20.0, "omega2": 16.0, "v_b2": 15.0}, ("E17b", "E19"))]
+)
+def test_zeros_that_a_spreadsheet_hides_are_believed(speeds, codes) -> None:
+    """0.8 of somebody who writes four digits is 0.8000, which only the ratio of the foot's speeds gives."""
+    desk = desk_of("soccer-kick")
+    found = diagnose_answer("e", desk.submission({**speeds, "e": 0.8}), desk.key, desk.questions)
+    assert (found and found.codes) == codes
+
+
+def test_another_right_answer_tells_that_the_numbers_were_used_as_written() -> None:
+    """I follows from the very numbers that are written, so the ratio 8.016 / 10.02 is exact and fits alone."""
+    desk = desk_of("soccer-kick")
+    coarse = {**KICK, "omega1": 20.0, "omega2": 16.0, "v_b2": 15.0, "e": 0.8}
+
+    def codes(values):
+        return diagnose_answer("e", desk.submission(values), desk.key, desk.questions).codes
+
+    inertia = desk.key.given["m"] * desk.key.given["L"] * 15.0 / 4.0
+    assert codes(coarse) == codes({**coarse, "I": 77.7}) == ("E17b", "E19")
+    assert codes({**coarse, "I": inertia}) == ("E19",)
+
+
+def test_rates_of_nothing_are_no_failure() -> None:
+    """The speed that a rate of zero gives is zero, whatever digits the speed's own cell has."""
+    desk = desk_of("soccer-kick")
+    assert desk.told("e", {"omega1": 0.0, "omega2": 0.0, "e": 77.7}, digits=3) is None
+
+
+@pytest.mark.parametrize(
+    ("outcomes", "needed"),
+    [
+        ([("formula", Outcome.RIGHT), ("value", Outcome.RIGHT), ("unit", Outcome.WRONG)], False),
+        ([("formula", Outcome.WRONG), ("value", Outcome.RIGHT)], True),
+        ([("formula", Outcome.RIGHT), ("value", Outcome.PARTIAL)], True),
+        ([("formula", Outcome.UNSURE)], True),
+        ([], False),
+    ],
+)
+def test_only_a_formula_or_a_value_that_is_not_right_asks_for_a_name(outcomes, needed: bool) -> None:
+    assert needs_diagnosis(outcomes) is needed
+
+
+def test_common_factors_are_put_into_words_unless_too_many_fit() -> None:
+    desk = desk_of("soccer-kick")
+    speeds, rates = Factor(("K3",), 3.28, ("v_f1", "v_b2")), Factor(("K9", "K2"), 57.3, ("omega1", "omega2"))
+    many = Factor(("K1", "K2", "K3", "K4"), 9.0, ("v_f1", "v_b2"))
+    arm = Factor(("K12",), 0.5, ("v_f1", "v_f2"))
+    told = diagnose_factors((speeds, rates, many, arm), desk.key, desk.questions)
+    assert [(d.subject, d.codes, d.basis, d.ids) for d in told] == [
+        ("velocities", ("K3",), "truth", ("v_f1", "v_b2")),
+        ("angular velocities", ("K9", "K2"), "truth", ("omega1", "omega2")),
+        ("velocities", ("K12",), "truth", ("v_f1", "v_f2")),
+    ]
+    assert "feet" in told[0].hint
+    assert "degrees" in told[1].hint
+    assert "frame rate" in told[1].hint
+    assert "half of L" in told[2].hint
+    clock = Factor(("K2",), 0.06, ("v_f1", "omega1"))
+    assert diagnose_factors((clock,), desk.key, desk.questions)[0].subject == "velocities"
+    three = Factor(("K1", "K2", "K3"), 9.0, ("v_f1", "v_b2"))
+    assert len(diagnose_factors((three,), desk.key, desk.questions)) == 1
