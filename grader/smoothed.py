@@ -29,7 +29,7 @@ def smoothing_of(fit: TrajectoryFit, key: AnswerKey) -> int:
     """
     if "frame_before" not in key.truth:
         return 0
-    near = np.abs(fit.frame - key.truth["frame_before"] - 0.5) <= AROUND
+    near = np.abs(fit.clip_frame - key.truth["frame_before"] - 0.5) <= AROUND
     if near.sum() < AROUND:
         return 0
     px_per_m = key.truth["px_per_m"]

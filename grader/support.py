@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from grader.model import Asked, Finding, Outcome
-from grader.tracked import LEAST_EACH_SIDE
+from grader.tracked import LEAST_EACH_SIDE, OUR_FAILURE
 
 SDS = 3.0
 METHOD = 2.0
@@ -52,6 +52,8 @@ def _held(asked: Asked, finding: Finding, half_width: float) -> Finding:
 
 def _why_unsupported(asked: Asked, value: float, half_width: float) -> str:
     table, found = asked.table, asked.table.values.get(asked.question.id)
+    if table.why_not == OUR_FAILURE:
+        return OUR_FAILURE
     if table.fit is None:
         return "there is no tracking table that it could come from"
     if not table.is_near:

@@ -8,7 +8,8 @@ import numpy as np
 
 from grader.model import Asked, Finding, Outcome
 from grader.smoothed import smoothing_of
-from grader.trajectory import TrajectoryFit
+from grader.tracked import OUR_FAILURE
+from grader.trajectory import LEAST_ROWS, TrajectoryFit
 
 GOOD_PX = 1.0  # what a careful hand reaches; correlation tracking is twenty times better
 POOR_PX = 4.0
@@ -22,27 +23,41 @@ def tracking(asked: Asked) -> tuple[Finding, ...]:
     """
     fit = asked.table.fit
     points, at = asked.question.points, asked.question.id
+    if asked.table.why_not == OUR_FAILURE and fit is None:
+        return (Finding(at, "table", Outcome.UNSURE, points, points, f"Sorry, {OUR_FAILURE}; a person will."),)
     if fit is None:
-        message = "There is no tracking table with ten rows or more to compare."
+        message = f"There is no tracking table with {LEAST_ROWS} rows or more of your video to compare."
         return (Finding(at, "table", Outcome.UNSURE if points else Outcome.PARTIAL, points, points, message),)
     slips = list(_slips(fit, asked))
-    outcome = _outcome(fit, is_clean=not slips)
+    outcome = _outcome(fit.rms_px, is_clean=not slips)
     share = {Outcome.RIGHT: 1.0, Outcome.PARTIAL: 0.5}.get(outcome, 0.0)
     numbers = {"rms_px": fit.rms_px, "scale_ratio": fit.scale_ratio, "lag_frames": fit.lag_frames}
-    message = " ".join(
-        [f"Your points lie {fit.rms_px:.2g} px (root mean square) from the true ones.", *(m for _, m in slips)]
-    )
+    message = " ".join([_distance(fit.rms_px), *(sentence for _, sentence in slips)])
     code = slips[0][0] if len(slips) == 1 else ""
     return (Finding(at, "table", outcome, share * points, points, message, numbers, code),)
 
 
-def _outcome(fit: TrajectoryFit, *, is_clean: bool) -> Outcome:
-    if fit.rms_px > POOR_PX:
+def _distance(rms_px: float) -> str:
+    words = f"Your points lie {rms_px:.2g} px (root mean square) from the true ones."
+    return words if rms_px <= GOOD_PX else f"{words} A careful hand stays within {GOOD_PX:g} px."
+
+
+def _outcome(rms_px: float, *, is_clean: bool) -> Outcome:
+    if rms_px > POOR_PX:
         return Outcome.WRONG
-    return Outcome.RIGHT if fit.rms_px <= GOOD_PX and is_clean else Outcome.PARTIAL
+    return Outcome.RIGHT if rms_px <= GOOD_PX and is_clean else Outcome.PARTIAL
 
 
 def _slips(fit: TrajectoryFit, asked: Asked) -> Iterator[tuple[str, str]]:
+    """Yield code and sentence of each fault; what was fitted is told only where the table then fits."""
+    if fit.rms_px <= POOR_PX:
+        yield from _fitted(fit, asked)
+    yield from _clock(asked)
+    if smoothing_of(fit, asked.key):
+        yield "K14", "Its paths are rounded off at the impact: it looks smoothed across it. Fit each side by itself."
+
+
+def _fitted(fit: TrajectoryFit, asked: Asked) -> Iterator[tuple[str, str]]:
     if fit.swapped:
         yield "K13", f"The columns of {' and '.join(fit.swapped)} look exchanged."
     if fit.y_down:
@@ -54,9 +69,6 @@ def _slips(fit: TrajectoryFit, asked: Asked) -> Iterator[tuple[str, str]]:
         yield code, "Its lengths are not the true ones: check the calibration."
     if abs(fit.lag_frames) > 0.3:
         yield "K11", f"It is {abs(fit.lag_frames):.1f} frames {'late' if fit.lag_frames > 0 else 'early'}."
-    yield from _clock(asked)
-    if smoothing_of(fit, asked.key):
-        yield "K14", "Its paths are rounded off at the impact: it looks smoothed across it. Fit each side by itself."
 
 
 def _scale_slip(ratio: float, px_per_m: float) -> str:
@@ -74,8 +86,10 @@ def _clock(asked: Asked) -> Iterator[tuple[str, str]]:
     if not {"frame", "t_s"} <= columns.keys():
         return
     steps, seconds = np.diff(columns["frame"]), np.diff(columns["t_s"])
-    usable = np.isfinite(steps) & np.isfinite(seconds) & (steps > 0) & (seconds > 0)
-    rate = float(np.median(steps[usable] / seconds[usable])) if usable.any() else fps
+    usable = (steps > 0) & (seconds > 0)  # which no NaN is
+    if not usable.any():
+        return
+    rate = float(np.median(steps[usable] / seconds[usable]))
     if abs(rate - 1) <= _RATE_APART:
         yield "K2b", "Its times are frame numbers; time is frame number divided by frame rate."
     elif abs(rate / fps - 1) > _RATE_APART:
