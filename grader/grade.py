@@ -17,7 +17,7 @@ from grader.model import UNSURE_ABOUT, Asked, Diagnosis, Finding, Grade, Kind, O
 from grader.plausible import settle_readings
 from grader.reference import from_table
 
-GRADER_VERSION = "3"
+GRADER_VERSION = "4"
 """Goes into every run; raise it when the same submission could get other points."""
 
 TRACKING = Question("tracking", "Tracking table", "", "number", "", 0.0, "tracking", 0.0, "measurement")
@@ -37,6 +37,7 @@ class _Judged:
 
     findings: tuple[Finding, ...] = ()
     charged: frozenset[str] = frozenset()
+    carried: frozenset[str] = frozenset()
 
 
 def grade(submission: Submission, key: AnswerKey, assignment: Assignment) -> Grade:
@@ -63,7 +64,8 @@ def grade(submission: Submission, key: AnswerKey, assignment: Assignment) -> Gra
     has_points = any(question.check == TRACKING.check for question in assignment.questions)
     judged = _Judged()
     for question in (*in_order(assignment.questions), *(() if has_points else (TRACKING,))):
-        judged = _judge(judged, Asked(submission, key, question, judged.charged, factors, questions, table))
+        asked = Asked(submission, key, question, judged.charged, factors, questions, table, judged.carried)
+        judged = _judge(judged, asked)
     diagnosis = (*diagnose_factors(factors, key, questions), *_diagnoses(submission, key, questions, judged.findings))
     findings = _named(judged.findings, diagnosis)
     return _sum_up(submission, assignment, findings, one_hint_a_cause(with_marks(diagnosis, judged.findings)))
@@ -89,8 +91,12 @@ def _judge(judged: _Judged, asked: Asked) -> _Judged:
         findings = (Finding(asked.question.id, "value", Outcome.UNSURE, points, points, message),)
     paid = any(f.aspect == "value" and f.outcome in {Outcome.WRONG, Outcome.PARTIAL} for f in findings)
     findings = tuple(_with_reading(finding, asked) for finding in findings)
-    charged = judged.charged | ({asked.question.id} if paid else set())
-    return _Judged((*judged.findings, *findings), frozenset(charged))
+    carried = any(finding.carried for finding in findings)
+    return _Judged(
+        (*judged.findings, *findings),
+        judged.charged | ({asked.question.id} if paid else set()),
+        judged.carried | ({asked.question.id} if carried else set()),
+    )
 
 
 def _with_reading(finding: Finding, asked: Asked) -> Finding:
