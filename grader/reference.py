@@ -26,9 +26,6 @@ from vml_course.model.motion import Motion
 from vml_course.model.solution import ImpactSolution
 from vml_course.synth.scene import Scene, scene_class
 
-SLIP = 0.02
-"""From this relative error on, the scale of a table is a slip that is put right before it is solved."""
-
 
 def from_table(tracking: Mapping[str, FloatArray], key: AnswerKey, assignment: Assignment) -> FromTable:
     """Solve the impact from a student's tracking table; never raises, says `OUR_FAILURE` where we cannot.
@@ -57,7 +54,7 @@ def _from_fit(fit: TrajectoryFit, key: AnswerKey, assignment: Assignment) -> Fro
 
 
 def _solved(fit: TrajectoryFit, key: AnswerKey, assignment: Assignment) -> FromTable:
-    is_corrected = fit.y_down or fit.x_left or abs(fit.scale_ratio - 1.0) > SLIP
+    is_corrected = fit.y_down or fit.x_left or fit.is_off_scale
     motion = _motion(fit, key, 1.0 if is_corrected else fit.scale_ratio)
     kind, model = scene_class(key.scene), impact_model(assignment.model)
     declared: dict[str, Any] = dict(kind().declared()) if issubclass(kind, Scene) else {}

@@ -17,6 +17,7 @@ from vml_course.model.arrays import FloatArray
 
 LEAST_ROWS = 10
 LARGEST_LAG = 12.0  # frames
+SCALE_SLIP = 0.02  # relative error of a scale that is one
 CLEAR_SDS = 5.0  # a delay is one when the fit without it is so much worse
 LONGEST = 2.0  # clips that table and clip may be together, halved, to try each far delay
 _FINE = 0.05  # frames
@@ -61,6 +62,11 @@ class TrajectoryFit:
     x_left: bool = False
     swapped: tuple[str, ...] = ()
     lag_s: float = 0.0
+
+    @property
+    def is_off_scale(self) -> bool:
+        """Whether the scale is a slip, no error of measurement."""
+        return abs(self.scale_ratio - 1.0) > SCALE_SLIP
 
     @property
     def clip_frame(self) -> FloatArray:

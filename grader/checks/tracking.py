@@ -64,7 +64,7 @@ def _fitted(fit: TrajectoryFit, asked: Asked) -> Iterator[tuple[str, str]]:
         yield "K10", "The y axis points down in your table; it should point up."
     if fit.x_left:
         yield "K15", "The x axis points to the left in your table; it should point to the right."
-    if abs(fit.scale_ratio - 1) > 0.02:
+    if fit.is_off_scale:
         code = _scale_slip(fit.scale_ratio, asked.key.truth["px_per_m"])
         yield code, "Its lengths are not the true ones: check the calibration."
     if abs(fit.lag_frames) > 0.3:
