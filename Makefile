@@ -47,4 +47,4 @@ gallery: .venv/.dev
 	$(BIN)/python tools/gallery.py
 
 clean:
-	rm -rf .venv mutants .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache
+	rm -rf .venv build .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache

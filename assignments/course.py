@@ -235,9 +235,13 @@ def _understood(text: str, path: str) -> CourseFile:
     except tomllib.TOMLDecodeError as error:
         raise CourseError(path, "TOML in UTF-8", error) from error
     except ValidationError as error:
-        first = named_mistakes(error, content)[0]
-        line = line_of(text, first.name, str(first.got))
-        raise CourseError(f"{path}, line {line}, {first.name}", first.expected, first.got, first.hint) from error
+        first, *others = sorted(
+            ((line_of(text, found.name, str(found.got)), found) for found in named_mistakes(error, content)),
+            key=lambda pair: pair[0],
+        )
+        line, found = first
+        also = "".join(f" And line {at}, {str(other).rstrip('.')}." for at, other in others)
+        raise CourseError(f"{path}, line {line}, {found.name}", found.expected, found.got, found.hint + also) from error
 
 
 def _write_new(path: Path, text: str) -> None:

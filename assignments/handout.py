@@ -105,7 +105,13 @@ class FirstPicture:
         u, v = x + LEADER_PX * math.cos(angle), y + LEADER_PX * math.sin(angle)
         anchor = _anchor(angle)
         left = u - {"start": 0, "middle": NAME_PX / 2, "end": NAME_PX}[anchor]
-        return 60 <= left <= width - NAME_PX and 60 <= v <= height - 40
+        is_inside = 60 <= left <= width - NAME_PX and 60 <= v <= height - 40
+        return is_inside and not self._is_on_stick(left + NAME_PX / 2, v)
+
+    def _is_on_stick(self, u: float, v: float) -> bool:
+        """Tell whether a name here would lie on the known length or on its caption."""
+        x1, y1, x2, y2 = self.stick_px
+        return abs(v - (y1 + y2) / 2) < NAME_PX and min(x1, x2) - NAME_PX < u < max(x1, x2) + NAME_PX
 
     def insets(self) -> tuple[Inset, Inset]:
         """Return both ends of the known length, enlarged."""

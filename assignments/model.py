@@ -184,6 +184,10 @@ class Assignment:
         return {question.id: question for question in self.questions}[question_id]
 
 
+NOBODY = "practice"
+"""The pseudonym that a practice variant is made for: it belongs to nobody."""
+
+
 @dataclass(frozen=True)
 class Variant:
     """One student's own version: frozen numbers, nothing to recompute.

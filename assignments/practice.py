@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from assignments.fairness import allowance
-from assignments.model import Assignment, Question
+from assignments.model import NOBODY, Assignment, Question
 from assignments.release import INSIDE, OUT, Order, Release, make
 from assignments.workplace import working_folder
 from vml_course.errors import FileFormatError, OutOfRangeError
@@ -51,7 +51,7 @@ def make_practice(assignment: Assignment, folder: Path, seed: int = 1) -> Practi
         raise FileFormatError(str(folder), "a new or empty folder", "something in it", "Choose another one with -o.")
     secret = hashlib.sha256(f"practice {seed}".encode()).digest()
     with making_folder(folder), working_folder(folder.parent) as work:
-        made = make(Order(assignment, secret, "practice"), work)
+        made = make(Order(assignment, secret, NOBODY), work)
         (work / OUT / SOLUTION).write_text(solution_text(assignment, made), encoding="utf-8", newline="\n")
         for name in TRUTH:
             (work / INSIDE / name).rename(work / OUT / name)

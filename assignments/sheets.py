@@ -15,7 +15,7 @@ from openpyxl.worksheet.datavalidation import DataValidation
 from openpyxl.worksheet.properties import PageSetupProperties
 from openpyxl.worksheet.worksheet import Worksheet
 
-from assignments.model import Assignment, Given, Question, Variant
+from assignments.model import NOBODY, Assignment, Given, Question, Variant
 from assignments.words import split_symbol, tolerance_text, tracking_columns
 from vml_course.model.units import UNITS
 
@@ -121,13 +121,16 @@ def add_tracking(book: Workbook, assignment: Assignment) -> None:
 def add_meta(book: Workbook, assignment: Assignment, variant: Variant) -> None:
     """Add the hidden sheet by which a returned workbook is recognised; it holds no answer."""
     sheet = book.create_sheet(META)
-    for row in (
+    rows = [
         ("format", FORMAT_VERSION),
         ("assignment", assignment.id),
         ("assignment_version", assignment.version),
         ("variant_code", variant.code),
         ("signature", variant.signature),
-    ):
+    ]
+    if variant.student == NOBODY:
+        rows.append(("purpose", "practice"))
+    for row in rows:
         sheet.append(row)
     sheet.sheet_state = "veryHidden"
     sheet.protection.sheet = True

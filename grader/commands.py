@@ -80,7 +80,10 @@ def check(
         typer.echo(f"{'✓' if result.tracking_rows else '✗'} Tracking table: {result.tracking_rows} rows")
         for remark in result.remarks:
             typer.echo(f"! {remark}")
-        typer.echo("Complete: it can be handed in." if result.is_complete else "Not complete yet.")
+        complete = "Complete: " + (
+            "but it is a practice workbook, which nobody can hand in." if result.is_practice else "it can be handed in."
+        )
+        typer.echo(complete if result.is_complete else "Not complete yet.")
         typer.echo("Only the form was looked at: not whether values are right, not whether the variant code is yours.")
     if not result.is_complete:
         raise typer.Exit(1)

@@ -74,11 +74,9 @@ def remarks_on(book: Book, submission: Submission, assignment: Assignment) -> It
     yield from _scale(told)
     yield from _arms(told)
     yield from _turns(told)
-    yield from (
-        f"{q.symbol} is a number written as text; it was understood."
-        for q in assignment.questions
-        if submission.answer(q.id).kind is Kind.TEXT and q.id in values
-    )
+    texts = [q.symbol for q in assignment.questions if submission.answer(q.id).kind is Kind.TEXT and q.id in values]
+    if texts:
+        yield f"Numbers written as text, which were understood: {', '.join(texts)}."
 
 
 def _unusual(told: _Told, assignment: Assignment) -> Iterator[str]:

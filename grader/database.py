@@ -23,7 +23,7 @@ from sqlalchemy.exc import ArgumentError, NoSuchModuleError, OperationalError, S
 
 from vml_course.errors import InputError
 
-SCHEMA = "0002"
+SCHEMA = "0003"
 """The newest version in `migrations/versions`."""
 
 _FIRST = "0001"

@@ -44,6 +44,7 @@ class CheckResult:
     tracking_rows: int
     flags: tuple[str, ...]
     remarks: tuple[str, ...] = ()
+    is_practice: bool = False
 
     @property
     def is_complete(self) -> bool:
@@ -67,7 +68,8 @@ def check_workbook(file: Path) -> CheckResult:
     submission = settle_readings(submission, {question.id: question for question in assignment.questions})
     rows = max((len(column) for column in submission.tracking.values()), default=0)
     remarks = (*_version_remark(claims, assignment), *remarks_on(book, submission, assignment))
-    return CheckResult(assignment.id, tuple(_checked(submission, assignment)), rows, submission.flags, remarks)
+    checked = tuple(_checked(submission, assignment))
+    return CheckResult(assignment.id, checked, rows, submission.flags, remarks, is_practice=bool(claims.purpose))
 
 
 def _version_remark(claims: Claims, assignment: Assignment) -> Iterator[str]:

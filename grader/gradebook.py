@@ -36,7 +36,17 @@ from grader.ledger import (
     variant_of,
 )
 from grader.model import Grade, Submission
-from grader.receipts import Arrived, Receipt, Status, add_receipt, knows_file, receipt_of, receipts_with, settle_receipt
+from grader.receipts import (
+    Arrived,
+    Receipt,
+    Status,
+    add_receipt,
+    claim_receipt,
+    knows_file,
+    receipt_of,
+    receipts_with,
+    settle_receipt,
+)
 from grader.roster import Enrolled, read_roster
 from vml_course.errors import InputError
 
@@ -217,6 +227,18 @@ class Gradebook:
         """Keep a receipt of a file; the same bytes of the same name and student again are the same receipt."""
         with self._engine.begin() as connection:
             return add_receipt(connection, arrived)
+
+    def claim(self, arrived: Arrived) -> Receipt:
+        """Keep that a person said whose a file is (`arrived.pid`, by `arrived.told_by`); return its receipt.
+
+        Raises
+        ------
+        NoKeyError
+            When this student has no variant of the assignment.
+        """
+        self.key_of(arrived.assignment, arrived.pid)
+        with self._engine.begin() as connection:
+            return claim_receipt(connection, arrived)
 
     def receipts(self, status: Status, assignment_id: str = "") -> tuple[Receipt, ...]:
         """Return receipts in the order in which the files were handed in."""

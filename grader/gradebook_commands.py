@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import getpass
 from dataclasses import asdict
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from grader._options import CourseOption, JsonOption, print_json, the_course
+
+if TYPE_CHECKING:
+    from grader.enrolment import Student
 
 PidArgument = Annotated[str, typer.Argument(metavar="PID", help="The student's pseudonym.")]
 
@@ -39,13 +42,19 @@ def show(course: CourseOption, as_json: JsonOption = False) -> None:
     for row in rows:
         who = f"{row.student.pid}  {row.student.name:24}{row.assignment_id:16}"
         earned = points_text(row.points, is_provisional=row.is_provisional)
-        typer.echo(f"{who}{earned} / {points_text(row.out_of)}  attempt {row.attempt}  {row.status}")
+        typer.echo(
+            f"{who}{earned} / {points_text(row.out_of)}  attempt {row.attempt}  {row.status}{_if_dropped(row.student)}"
+        )
         for text in row.adjustments:
             typer.echo(f"{'':10}{text}")
     graded = {row.student.pid for row in rows}
     for student in students:
         if student.pid not in graded:
-            typer.echo(f"{student.pid}  {student.name:24}{'nothing graded yet'}")
+            typer.echo(f"{student.pid}  {student.name:24}nothing graded yet{_if_dropped(student)}")
+
+
+def _if_dropped(student: Student) -> str:
+    return "" if student.status == "active" else f"  {student.status}"
 
 
 def set_(

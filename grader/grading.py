@@ -11,15 +11,20 @@ from pathlib import Path
 
 from assignments.course import Course
 from grader.gradebook import Gradebook
-from grader.marker import FEEDBACK, USUAL, Graded, Marker, Progress, Wanted, silent, write_class_page
+from grader.marker import FEEDBACK, USUAL, Graded, Marker, Progress, Wanted, Whose, silent, write_class_page
 from grader.receipts import Status
 from vml_course.errors import FileMissingError
 
-__all__ = ["FEEDBACK", "Graded", "Wanted", "grade_again", "grade_collected", "grade_files", "write_class_page"]
+__all__ = ["FEEDBACK", "Graded", "Wanted", "Whose", "grade_again", "grade_collected", "grade_files", "write_class_page"]
 
 
 def grade_files(
-    course: Course, files: Iterable[Path], wanted: Wanted = USUAL, *, progress: Progress | None = None
+    course: Course,
+    files: Iterable[Path],
+    wanted: Wanted = USUAL,
+    *,
+    whose: Whose | None = None,
+    progress: Progress | None = None,
 ) -> list[Graded]:
     """Grade files, record what they earned, write a page for each student and one for the class.
 
@@ -32,6 +37,8 @@ def grade_files(
     files : iterable of Path
         Files, or folders, of which every file is taken.
     wanted : Wanted
+    whose : Whose, optional
+        A person's word that all of these files are one student's.
     progress : callable, optional
         `(files done, files in all)`.
 
@@ -44,12 +51,14 @@ def grade_files(
     ------
     FileMissingError
         When none of the files exists.
+    NoKeyError
+        When the student whose they are said to be has no variant of that assignment.
     """
     listed = listed_files(files)
     with Gradebook.open(course) as book, wanted.crew_for(len(listed)) as crew:
         marker = Marker(course, book, crew, wanted)
         in_order = sorted(listed, key=_changed)
-        graded = dict(zip(in_order, marker.mark_files(in_order, progress or silent), strict=True))
+        graded = dict(zip(in_order, marker.mark_files(in_order, progress or silent, whose), strict=True))
         return marker.finish([graded[file] for file in listed])
 
 

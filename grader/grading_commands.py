@@ -14,6 +14,7 @@ import typer
 
 from grader._options import CourseOption, JsonOption, print_json, resumable, the_course
 from vml_course.commands._progress import progress
+from vml_course.errors import InputError
 
 if TYPE_CHECKING:
     from grader.grading import Graded
@@ -61,6 +62,10 @@ def collect(
                 typer.echo(f"{'':10}{item.message}")
         counts = Counter(item.status for item in found)
         typer.echo(", ".join(f"{number} {status}" for status, number in counts.items()) + ".")
+        if counts.keys() & {"unmatched", "unreadable"}:
+            typer.echo(
+                f"Say whose a workbook is: vml grade FILE --whose STUDENT --assignment {assignment} --course {course}"
+            )
         typer.echo("Nothing was kept (--dry-run)." if dry_run else f"Next: vml grade --course {course}")
     if any(item.status not in {"matched", "duplicate"} for item in found):
         raise typer.Exit(1)
@@ -72,6 +77,10 @@ def grade(
         list[Path] | None, typer.Argument(help="Workbooks, or folders of workbooks; without any, what was collected.")
     ] = None,
     assignment: Annotated[str, typer.Option(metavar="ID", help="Of what was collected, only this assignment's.")] = "",
+    whose: Annotated[
+        str,
+        typer.Option(metavar="STUDENT", help="With --assignment: these files are this student's, whatever is in them."),
+    ] = "",
     again: Annotated[
         str, typer.Option(metavar="ID", help="Grade everything of this assignment anew; release says what it changes.")
     ] = "",
@@ -98,21 +107,27 @@ def grade(
     of its content: an old file graded again stays old. Files of one student that are named together are taken in the
     order in which they were last changed.
 
+    A workbook that lost its code (rebuilt in another program, its hidden sheet deleted) is graded when you say whose it
+    is: vml grade FILE --whose s03 --assignment soccer-kick. Who said so is written down.
+
     Example: vml grade returned/*.xlsx --course dynamics-2026
     """
     from assignments.load import load_assignment
-    from grader.grading import Wanted, grade_again, grade_collected, grade_files
+    from grader.grading import Wanted, Whose, grade_again, grade_collected, grade_files
 
     opened = the_course(course)
     for named in filter(None, (assignment, again)):
         load_assignment(named, opened.assignments)
+    if whose and not (files and assignment):
+        raise InputError("--whose", "files, and --assignment ID", "neither or one of them")
+    says = Whose(whose, assignment, getpass.getuser()) if whose else None
     moment = received and received.replace(tzinfo=received.tzinfo or opened.calendar.zone)
     wanted = Wanted(show_truth, moment, workers, cluster)
     with resumable(), progress("grading") as show:
         if again:
             graded = grade_again(opened, again, wanted, progress=show)
         elif files:
-            graded = grade_files(opened, files, wanted, progress=show)
+            graded = grade_files(opened, files, wanted, whose=says, progress=show)
         else:
             graded = grade_collected(opened, assignment, wanted, progress=show)
     if as_json:
@@ -135,6 +150,10 @@ def _print_graded(graded: Iterable[Graded], place: str) -> None:
         typer.echo(line)
     if not graded:
         typer.echo("Nothing new was collected. Name workbooks, or run vml collect first.")
+        return
+    counts = Counter(item.status for item in graded)
+    statuses = ", ".join(f"{number} {status}" for status, number in counts.most_common())
+    typer.echo(f"{len(graded)} file{'s' if len(graded) > 1 else ''}: {statuses}.")
     for assignment_id in dict.fromkeys(item.assignment_id for item in graded if item.assignment_id):
         typer.echo(f"Class page: {place}/feedback/{assignment_id}/class.html")
 

@@ -14,10 +14,11 @@ from assignments.course import Course
 from assignments.load import load_assignment
 from assignments.model import AnswerKey, Assignment
 from assignments.terms import Terms
+from assignments.variants import signature_of
 from assignments.words import symbol_text
 from grader.adjust import decided
 from grader.annotated import annotated_workbook
-from grader.errors import UnknownVariantError
+from grader.errors import CollectError, UnknownVariantError
 from grader.evidence import evidence_in
 from grader.feedback import Report, class_page, feedback_page
 from grader.frame import impact_frame
@@ -25,7 +26,8 @@ from grader.gradebook import Gradebook, Row
 from grader.inbox import keep, kept_name, received_bytes
 from grader.marking import Marked, MarkOrder, ReadOrder, Understood, mark, understand
 from grader.model import Grade
-from grader.read import Book
+from grader.read import Book, claims_of
+from grader.read.locate import Claims
 from grader.receipts import Arrived, Receipt, handed_in_at
 from grader.signed import is_signed
 from vml_course.errors import VmlError
@@ -98,6 +100,15 @@ class Wanted:
         return open_executor(self.workers or min(os.cpu_count() or 1, 1 + files // 60), self.cluster)
 
 
+@dataclass(frozen=True)
+class Whose:
+    """Whose files are, where a person says so: their own codes are missing, damaged or unreadable."""
+
+    student: str
+    assignment: str
+    told_by: str
+
+
 USUAL = Wanted()
 
 
@@ -138,9 +149,9 @@ class Marker:
         self._course, self._book, self._crew, self._wanted = course, book, crew, wanted
         self._now = dt.datetime.now(dt.UTC)
 
-    def mark_files(self, files: Sequence[Path], progress: Progress) -> list[Graded]:
+    def mark_files(self, files: Sequence[Path], progress: Progress, whose: Whose | None = None) -> list[Graded]:
         """Keep the files that somebody named, and grade them; return what became of each."""
-        kept = [self._keep(file) for file in files]
+        kept = [self._keep(file, whose) for file in files]
         graded = self.mark_receipts([one for one in kept if isinstance(one, Receipt)], progress)
         done = iter(graded)
         return [
@@ -179,12 +190,16 @@ class Marker:
                 report = Report(assignment, marked.submission, key, marked.grade, attempt, row=row, terms=terms)
                 self._pages(report, row, known.book)
 
-    def _keep(self, file: Path) -> Receipt | Graded:
+    def _keep(self, file: Path, whose: Whose | None) -> Receipt | Graded:
         try:
             data = received_bytes(file)
         except VmlError as error:
             return Graded(file, "unreadable", str(error))
         arrived = Arrived(keep(self._course.shelf, data), file.name, FILES, self._now.isoformat())
+        if whose is not None:
+            return self._book.claim(
+                replace(arrived, assignment=whose.assignment, pid=whose.student, told_by=whose.told_by)
+            )
         return Receipt(self._book.receive(arrived), arrived)
 
     def _marked(self, receipts: Sequence[Receipt]) -> Iterator[Graded]:
@@ -208,7 +223,14 @@ class Marker:
 
     def _order(self, receipt: Receipt) -> ReadOrder:
         data = self._course.shelf.read(kept_name(receipt.arrived.file_sha256))
-        return ReadOrder(receipt.arrived.name, data, self._course.assignments)
+        return ReadOrder(receipt.arrived.name, data, self._course.assignments, told=self._told(receipt.arrived))
+
+    def _told(self, arrived: Arrived) -> Claims | None:
+        """Return what a person said that a file is, as the workbook itself would say it; None when nobody did."""
+        if not arrived.told_by:
+            return None
+        code = self._book.key_of(arrived.assignment, arrived.pid).code
+        return Claims(code, arrived.assignment, signature_of(self._course.secret, arrived.assignment, code))
 
     def _with_key(self, order: ReadOrder, read: object) -> _Known | object:
         """Add what is true to what was read; whoever's code it is, it must carry this course's signature."""
@@ -219,11 +241,24 @@ class Marker:
             key = self._book.key_for_code(claims.code, order.name)
             if not is_signed(self._course, key, claims):
                 raise UnknownVariantError(order.name, claims.code)
+            if order.told is not None:
+                self._check_is_no_others(order.name, key, read.book)
             if read.assignment.id != key.assignment_id:  # the hidden sheet was changed: the key knows better
                 read = understand(replace(order, assignment=key.assignment_id))
         except VmlError as error:
             return error
         return _Known(MarkOrder(read.submission, key, read.assignment), read.book)
+
+    def _check_is_no_others(self, name: str, key: AnswerKey, book: Book) -> None:
+        """Refuse to grade numbers of another video, whoever hands them in: they cannot be right for this one."""
+        try:
+            claims = claims_of(book)
+            own = self._book.key_for_code(claims.code, name)
+        except VmlError:
+            return  # no code, or none of ours: a person knew better
+        if own.code != key.code and is_signed(self._course, own, claims):
+            expected = f"a workbook for the video of {key.student}"
+            raise CollectError(name, expected, f"the workbook of {own.student} ({own.assignment_id})")
 
     def _all(self, work: Callable[[Any], Any], orders: Sequence[Any]) -> list[object]:
         """Return what became of each order, in their order: a result, or the error that stopped it."""

@@ -16,6 +16,7 @@ from markupsafe import Markup, escape
 from assignments.words import split_symbol
 from grader.model import Finding, Outcome, overall
 
+WORDS = {Outcome.RIGHT: "right", Outcome.PARTIAL: "partly right", Outcome.WRONG: "wrong", Outcome.UNSURE: "unsure"}
 GLYPHS = {Outcome.RIGHT: "✓", Outcome.PARTIAL: "◐", Outcome.WRONG: "✗", Outcome.UNSURE: "?"}
 
 
@@ -38,7 +39,7 @@ def verdict(findings: Sequence[Finding]) -> Verdict:
 
 def verdict_of(outcome: Outcome) -> Verdict:
     """Return an outcome for the page."""
-    return Verdict(outcome.value, GLYPHS[outcome], outcome.value)
+    return Verdict(outcome.value, GLYPHS[outcome], WORDS[outcome])
 
 
 # ---------------------------------------------------------------- words

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import datetime as dt
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
-from sqlalchemy import Connection, insert, select, update
+from sqlalchemy import Connection, Select, insert, select, update
 
 from assignments.terms import Terms
 from grader import tables
@@ -36,6 +36,8 @@ class Arrived:
     lms_ref : str
         The platform's number of the file.
     status, reason : str
+    told_by : str
+        The person who said whose it is; "" where workbook or platform did.
     """
 
     file_sha256: str
@@ -47,6 +49,7 @@ class Arrived:
     lms_ref: str = ""
     status: Status = "collected"
     reason: str = ""
+    told_by: str = ""
 
 
 @dataclass(frozen=True)
@@ -101,10 +104,37 @@ def add_receipt(connection: Connection, arrived: Arrived) -> int:
         "assignment": arrived.assignment,
         "status": arrived.status,
         "reason": arrived.reason,
+        "told_by": arrived.told_by,
     }
     made = connection.execute(insert(table).values(**line))
     note(connection, "received", arrived.file_sha256, {"source": arrived.source, "status": arrived.status})
     return int(made.inserted_primary_key[0])  # type: ignore[index]  # one row was inserted
+
+
+def claim_receipt(connection: Connection, arrived: Arrived) -> Receipt:
+    """Write down that a person said whose a file is, and return its receipt, as it is then.
+
+    A file that came in before and waits, nobody knowing whose it is, keeps its receipt with the platform's date.
+    """
+    table = tables.receipt
+    student = connection.scalar(select(tables.student.c.id).where(tables.student.c.pid == arrived.pid))
+    waits = (table.c.file_sha256 == arrived.file_sha256) & (table.c.submission_id.is_(None))
+    waits &= table.c.assignment.in_(["", arrived.assignment])
+    waits &= table.c.student_id.is_(None) | (table.c.student_id == student)
+    known = connection.scalar(select(table.c.id).where(waits).order_by(table.c.id).limit(1))
+    at = add_receipt(connection, arrived) if known is None else int(known)
+    told = {"student_id": student, "assignment": arrived.assignment, "told_by": arrived.told_by}
+    connection.execute(update(table).where(table.c.id == at).values(status="collected", reason="", **told))
+    said = {"assignment": arrived.assignment, "pid": arrived.pid, "who": arrived.told_by}
+    note(connection, "told-whose", arrived.file_sha256, said)
+    return _receipt(connection.execute(_with_pid().where(table.c.id == at)).mappings().one())
+
+
+def _with_pid() -> Select[Any]:
+    table = tables.receipt
+    return select(table, tables.student.c.pid).select_from(
+        table.outerjoin(tables.student, table.c.student_id == tables.student.c.id)
+    )
 
 
 def settle_receipt(
@@ -129,12 +159,7 @@ def _whose(connection: Connection, submission: int) -> tuple[int, str]:
 def receipts_with(connection: Connection, status: Status, assignment: str = "") -> tuple[Receipt, ...]:
     """Return receipts in the order in which the files were handed in."""
     table = tables.receipt
-    wanted = (
-        select(table, tables.student.c.pid)
-        .select_from(table.outerjoin(tables.student, table.c.student_id == tables.student.c.id))
-        .where(table.c.status == status)
-        .order_by(table.c.received_at, table.c.id)
-    )
+    wanted = _with_pid().where(table.c.status == status).order_by(table.c.received_at, table.c.id)
     if assignment:
         wanted = wanted.where(table.c.assignment == assignment)
     return tuple(_receipt(row) for row in connection.execute(wanted).mappings())
@@ -178,5 +203,6 @@ def _receipt(row: object) -> Receipt:
             lms_ref=line["lms_ref"] or "",
             status=line["status"],
             reason=line["reason"],
+            told_by=line["told_by"],
         ),
     )

@@ -37,7 +37,9 @@ def import_(
     if as_json:
         print_json([{"status": one.status, **asdict(one.student)} for one in arrivals])
         return
-    for one in arrivals:
+    listed = [one for one in arrivals if one.status != "not listed"]
+    others = len(arrivals) - len(listed)
+    for one in arrivals if others <= len(listed) else listed:  # a list of one late student is no new class list
         pid = "(not yet)" if dry_run and one.status == "new" else one.student.pid
         typer.echo(f"{pid:10}{one.status:12}{one.student.name:28}{one.student.email}".rstrip())
     counts = {

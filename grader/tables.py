@@ -98,6 +98,7 @@ receipt = Table(
     Column("assignment", String(80), nullable=False, server_default=""),
     Column("status", String(20), nullable=False),  # collected, graded, unreadable, unmatched, closed
     Column("reason", Text, nullable=False, server_default=""),
+    Column("told_by", Text, nullable=False, server_default=""),  # the person who said whose it is
 )
 """Every file that ever came in, also those that nobody could read."""
 

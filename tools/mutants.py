@@ -25,7 +25,7 @@ from typing import TextIO
 
 ROOT = Path(__file__).resolve().parents[1]
 ROOMS = ROOT / "tests" / "mutants"
-WORK = ROOT / "mutants"
+WORK = ROOT / "build" / "mutants"
 COPIED = ("vml_course", "assignments", "grader", "tests", "tools", "README.md", "pyproject.toml")
 NOTICED = {"killed", "timeout", "caught by type check", "segfault", "skipped"}
 LITERAL = re.compile(r"""("(?:[^"\\]|\\.)*"|'(?:[^'\\]|\\.)*')""")
@@ -65,7 +65,7 @@ def main() -> int:
 
 def run_room(room: str, names: list[str], processes: int) -> int:
     about = tomllib.loads((ROOMS / f"{room}.toml").read_text("utf-8"))
-    folder = prepare(room, about)
+    folder = prepare(room, about, whole=not names)
     with (folder / "mutmut.log").open("w", encoding="utf-8") as log:
         done = mutmut(folder, "run", "--max-children", str(processes), *names, log=log)
     if done.returncode:
@@ -74,10 +74,13 @@ def run_room(room: str, names: list[str], processes: int) -> int:
     return report(room, about, results(folder), folder, whole=not names)
 
 
-def prepare(room: str, about: dict) -> Path:
-    """Lay a copy of the tree beside the results of the run before, so that only what has changed runs again."""
+def prepare(room: str, about: dict, *, whole: bool) -> Path:
+    """Lay a copy of the tree down; only a run of some mutants keeps what others ended as."""
     folder = WORK / room
+    if whole:
+        shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True, exist_ok=True)
+    (folder / "mutants" / "mutmut-stats.json").unlink(missing_ok=True)  # which test runs what: tests have changed
     for name in COPIED:
         source, target = ROOT / name, folder / name
         if source.is_dir():

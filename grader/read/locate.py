@@ -30,12 +30,13 @@ _Labels = dict[str, list[tuple[Sheet, Place]]]
 
 @dataclass(frozen=True)
 class Claims:
-    """What a workbook says it is: the variant's code, the assignment's id and version, the signature."""
+    """What a workbook says it is: its variant's code, assignment and version, the signature, what it is for."""
 
     code: str
     assignment_id: str
     signature: str = ""
     version: str = ""
+    purpose: str = ""
 
 
 def claims_of(book: Book) -> Claims:
@@ -51,7 +52,9 @@ def claims_of(book: Book) -> Claims:
     code, assignment = said.get("variant_code", ""), said.get("assignment", "")
     if not code or not assignment:
         raise UnreadableError(book.name, "a workbook without our variant code", OUR_TEMPLATE)
-    return Claims(code, assignment, said.get("signature", ""), said.get("assignment_version", ""))
+    return Claims(
+        code, assignment, said.get("signature", ""), said.get("assignment_version", ""), said.get("purpose", "")
+    )
 
 
 def _pairs(sheet: Sheet) -> Iterator[tuple[str, str]]:
@@ -66,6 +69,7 @@ def find_submission(
     questions: Iterable[Question],
     template: Mapping[str, str] | None = None,
     points: Sequence[str] = (),
+    claims: Claims | None = None,
 ) -> Submission:
     """Return the answers to these questions and the tracking table.
 
@@ -77,13 +81,15 @@ def find_submission(
         Where the template has its answer cells, as `Answers!C7` by question id.
     points : sequence of str, optional
         The assignment's points, with which the names in the table are matched.
+    claims : Claims, optional
+        What a person says that it is; asked of the workbook when not given.
 
     Raises
     ------
     UnreadableError
-        When the workbook carries no variant code.
+        When nobody says what it is, and the workbook carries no variant code.
     """
-    claims = claims_of(book)
+    claims = claims or claims_of(book)
     labels = _labels(book)
     answers = {q.id: _answer(book, labels, q, (template or {}).get(q.id, "")) for q in questions}
     table = read_table(book, points)

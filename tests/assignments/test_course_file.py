@@ -168,3 +168,15 @@ def test_terms_of_an_assignment_that_does_not_exist_are_said_to_have_no_effect(t
     assert line.startswith("course.toml: 'two-puks' is no assignment of this course (ballistic-pendulum, bat-and-ball,")
     (tmp_path / "assignments" / "two-puks").mkdir(parents=True)
     assert strangers_in(open_course(tmp_path)) == []
+
+
+def test_all_mistakes_are_told_at_once_in_the_order_of_the_file(tmp_path: Path) -> None:
+    _course(tmp_path, 'title = "x"\ntime_zone = "Mars"\n[assignment.kick]\nattempts = -1\ncounts = "worst"\n')
+    with pytest.raises(CourseError) as caught:
+        open_course(tmp_path)
+    said = str(caught.value)
+    places = [
+        said.index(words)
+        for words in ("line 2, time_zone", "line 4, assignment.kick.attempts", "line 5, assignment.kick.counts")
+    ]
+    assert places == sorted(places)

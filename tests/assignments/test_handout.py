@@ -102,6 +102,12 @@ def test_names_of_points_stand_away_from_the_other_points_and_inside_the_picture
         assert 0 < label.text[1] < 720
 
 
+def test_no_name_lies_on_the_known_length() -> None:
+    over_it = {"foot": (330.0, 560.0), "knee": (520.0, 612.0), "ball": (700.0, 560.0)}
+    for label in FirstPicture(PICTURE.bgr, over_it, STICK).labels():
+        assert abs(label.end[1] - STICK[1]) >= 50.0
+
+
 def test_it_tells_of_the_check_and_the_whole_export(html: str) -> None:
     assert "vml check workbook.xlsx" in html
     assert "sheet <code>Data</code>" in html

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import sys
+import zipfile
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -12,13 +13,17 @@ from types import ModuleType
 import numpy as np
 import pytest
 
+from assignments.course import COURSE_FILE, Course, new_course, open_course
 from assignments.load import load_assignment
 from assignments.mistakes import ImpactNumbers, numbers_of_impact
 from assignments.model import AnswerKey, Assignment, Variant
+from assignments.variants import signature_of
 from assignments.workbook import fill_workbook, write_workbook
 from grader.grade import grade
+from grader.gradebook import Gradebook
 from grader.model import Answer, Grade, Kind, Submission
 from grader.read import ReadRequest, find_submission, read_workbook
+from grader.roster import Enrolled
 
 FPS, SCALE = 480.0, 500.0
 POINTS = ("foot", "knee", "ball")
@@ -198,3 +203,50 @@ def good_bytes(assignment: Assignment, empty_bytes: bytes, tmp_path_factory: pyt
 def kit() -> ModuleType:
     """The makers of this file, for tests that need many."""
     return sys.modules[__name__]
+
+
+@dataclass
+class Term:
+    """A course whose students Canvas knows as 901, 902, 903."""
+
+    course: Course
+    kit: object
+    assignment: object
+    pids: tuple[str, ...]
+
+    def say(self, toml: str) -> None:
+        """Add to the settings."""
+        self.course.shelf.write(COURSE_FILE, f'title = "x"\n{toml}'.encode())
+        self.course = open_course(self.course.folder)
+
+    def file(self, i: int, **changes: float) -> bytes:
+        """A filled workbook of one of them."""
+        numbers, folder = self.kit.impact(e=0.6 + 0.1 * i), self.course.folder
+        empty, filled = folder / "empty.xlsx", folder / "filled.xlsx"
+        code = f"CODE{i}"
+        variant = self.kit.variant_of(signature_of(self.course.secret, "soccer-kick", code), code, self.pids[i])
+        write_workbook(empty, self.assignment, variant, {g.id: 1.0 for g in self.assignment.givens})
+        units = {q.id: q.unit for q in self.assignment.questions if q.unit}
+        answers = {**self.kit.rounded(self.kit.true_values(numbers)), **changes}
+        fill_workbook(empty, filled, answers, units, self.kit.table_of(self.kit.trajectory_m(numbers)))
+        return filled.read_bytes()
+
+    def download(self, **files: bytes) -> Path:
+        """A zip with these files."""
+        path = self.course.folder / "submissions.zip"
+        with zipfile.ZipFile(path, "w") as archive:
+            for name, data in files.items():
+                archive.writestr(name, data)
+        return path
+
+
+@pytest.fixture
+def term(tmp_path: Path, kit, assignment) -> Term:
+    course = new_course(tmp_path / "course")
+    with Gradebook.open(course) as book:
+        people = [Enrolled(f"S{i}", f"s{i}@x.org", {"canvas_id": f"90{i + 1}"}) for i in range(3)]
+        pids = tuple(arrival.student.pid for arrival in book.take_in(people))
+        for i, pid in enumerate(pids):
+            variant = kit.variant_of("", f"CODE{i}", pid)
+            book.keep_key(variant, kit.key_of(kit.impact(e=0.6 + 0.1 * i), code=f"CODE{i}", student=pid))
+    return Term(course, kit, assignment, pids)

@@ -7,8 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from assignments.load import load_assignment
-from grader.adjust import TOTAL, Adjustment, Standing, check_adjustment, settle
-from grader.model import Outcome
+from grader.adjust import TOTAL, Adjustment, Standing, check_adjustment, decided, settle
+from grader.model import Diagnosis, Finding, Grade, Outcome
 from vml_course.errors import InputError, UnknownNameError
 
 KICK = load_assignment("soccer-kick")
@@ -103,3 +103,56 @@ def test_what_cannot_be_given_is_one_line(question: str, points: float, reason: 
 def test_an_unknown_question_is_told_with_those_known() -> None:
     with pytest.raises(UnknownNameError, match=r"question: expected one of px_per_m, .*, total, got 'mass'"):
         check_adjustment(KICK, _set("mass", 1.0))
+
+
+def _found(question: str, aspect: str, points: float, out_of: float) -> Finding:
+    return Finding(question, aspect, Outcome.WRONG, points, out_of, "Not the value.", {"value": 1.0}, "swapped")
+
+
+GRADE = Grade(
+    (_found("e", "value", 1.0, 5.0), _found("I", "value", 2.0, 6.0), _found("e", "unit", 1.0, 1.0)),
+    points=4.0,
+    out_of=12.0,
+    status="ok",
+    diagnosis=(
+        Diagnosis("e", ("inverted",), "Turned over?", "own"),
+        Diagnosis("velocities", ("frames",), "Per frame?", "own", ("e", "I")),
+    ),
+    reasons=("The workbook carries macros.",),
+)
+
+
+@pytest.mark.parametrize(("points", "outcome"), [(6.0, Outcome.RIGHT), (2.5, Outcome.PARTIAL), (0.0, Outcome.WRONG)])
+def test_the_page_says_what_a_person_decided_once_in_place_of_all_aspects(points: float, outcome: Outcome) -> None:
+    told = decided(GRADE, [_set("e", points)])
+    one = Finding("e", "value", outcome, points, 6.0, "A person decided: seen on paper")
+    assert told.findings == (one, GRADE.findings[1])
+
+
+def test_a_decision_stands_where_the_first_finding_of_its_question_stood() -> None:
+    told = decided(GRADE, [_set("e", 6.0), _set("I", 6.0)])
+    assert [(one.question_id, one.outcome, one.out_of) for one in told.findings] == [
+        ("e", Outcome.RIGHT, 6.0),
+        ("I", Outcome.RIGHT, 6.0),
+    ]
+
+
+def test_the_page_says_the_newest_decision() -> None:
+    assert decided(GRADE, [_set("e", 1.0), _set("e", 4.0, "read again")]) == decided(
+        GRADE, [_set("e", 4.0, "read again")]
+    )
+
+
+def test_hints_go_where_a_person_has_decided_everything_they_are_about() -> None:
+    assert [hint.subject for hint in decided(GRADE, [_set("e", 4.0)]).diagnosis] == ["velocities"]
+    assert [hint.subject for hint in decided(GRADE, [_set("I", 4.0)]).diagnosis] == ["e", "velocities"]
+    assert decided(GRADE, [_set("e", 4.0), _set("I", 4.0)]).diagnosis == ()
+
+
+@pytest.mark.parametrize("decisions", [[], [_set(TOTAL, 12.0)], [_set("omega", 1.0)]])
+def test_findings_stay_where_nobody_decided_about_the_question(decisions: list[Adjustment]) -> None:
+    assert decided(GRADE, decisions) == GRADE
+
+
+def test_the_student_is_told_of_which_symbol_and_why_but_not_by_whom() -> None:
+    assert _set("e", 4.5).told("e") == "e set to 4.5 points: seen on paper"

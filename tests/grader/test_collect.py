@@ -4,16 +4,12 @@ from __future__ import annotations
 
 import datetime as dt
 import json
-import zipfile
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
-from assignments.course import COURSE_FILE, Course, new_course, open_course
 from assignments.terms import Terms
-from assignments.variants import signature_of
-from assignments.workbook import fill_workbook, write_workbook
 from grader.collect import collect
 from grader.errors import CollectError, NothingGradedError
 from grader.grade import grade
@@ -21,7 +17,6 @@ from grader.gradebook import Gradebook
 from grader.grading import Wanted, grade_again, grade_collected, grade_files
 from grader.receipts import handed_in_at
 from grader.releasing import release_grades, released_grades
-from grader.roster import Enrolled
 from vml_course.cli import run
 from vml_course.errors import FileMissingError
 
@@ -29,59 +24,12 @@ SLUG = "soccer-kick"
 DUE = dt.datetime(2026, 5, 1, 22, 0, tzinfo=dt.UTC)
 
 
-@dataclass
-class Term:
-    """A course whose students Canvas knows as 901, 902, 903."""
-
-    course: Course
-    kit: object
-    assignment: object
-    pids: tuple[str, ...]
-
-    def say(self, toml: str) -> None:
-        """Add to the settings."""
-        self.course.shelf.write(COURSE_FILE, f'title = "x"\n{toml}'.encode())
-        self.course = open_course(self.course.folder)
-
-    def file(self, i: int, **changes: float) -> bytes:
-        """A filled workbook of one of them."""
-        numbers, folder = self.kit.impact(e=0.6 + 0.1 * i), self.course.folder
-        empty, filled = folder / "empty.xlsx", folder / "filled.xlsx"
-        code = f"CODE{i}"
-        variant = self.kit.variant_of(signature_of(self.course.secret, SLUG, code), code, self.pids[i])
-        write_workbook(empty, self.assignment, variant, {g.id: 1.0 for g in self.assignment.givens})
-        units = {q.id: q.unit for q in self.assignment.questions if q.unit}
-        answers = {**self.kit.rounded(self.kit.true_values(numbers)), **changes}
-        fill_workbook(empty, filled, answers, units, self.kit.table_of(self.kit.trajectory_m(numbers)))
-        return filled.read_bytes()
-
-    def download(self, **files: bytes) -> Path:
-        """A zip with these files."""
-        path = self.course.folder / "submissions.zip"
-        with zipfile.ZipFile(path, "w") as archive:
-            for name, data in files.items():
-                archive.writestr(name, data)
-        return path
-
-
-@pytest.fixture
-def term(tmp_path: Path, kit, assignment) -> Term:
-    course = new_course(tmp_path / "course")
-    with Gradebook.open(course) as book:
-        people = [Enrolled(f"S{i}", f"s{i}@x.org", {"canvas_id": f"90{i + 1}"}) for i in range(3)]
-        pids = tuple(arrival.student.pid for arrival in book.take_in(people))
-        for i, pid in enumerate(pids):
-            variant = kit.variant_of("", f"CODE{i}", pid)
-            book.keep_key(variant, kit.key_of(kit.impact(e=0.6 + 0.1 * i), code=f"CODE{i}", student=pid))
-    return Term(course, kit, assignment, pids)
-
-
-def _row(term: Term, i: int):
+def _row(term, i: int):
     with Gradebook.open(term.course) as book:
         return book.row(SLUG, term.pids[i])
 
 
-def test_a_download_is_matched_kept_and_graded(term: Term) -> None:
+def test_a_download_is_matched_kept_and_graded(term) -> None:
     names = {f"s{i}_90{i + 1}_55{i}_lab.xlsx": term.file(i) for i in range(3)}
     found = collect(term.course, SLUG, term.download(**names, **{"__MACOSX/x": b"", "s_901_1_.DS_Store": b""}))
     assert [(item.status, item.pid, item.platform) for item in found[:3]] == [
@@ -94,7 +42,7 @@ def test_a_download_is_matched_kept_and_graded(term: Term) -> None:
     assert grade_collected(term.course, SLUG) == []  # nothing waits any more
 
 
-def test_collecting_again_takes_in_only_what_is_new(term: Term) -> None:
+def test_collecting_again_takes_in_only_what_is_new(term) -> None:
     first = {"s_901_550_lab.xlsx": term.file(0)}
     collect(term.course, SLUG, term.download(**first))
     again = collect(term.course, SLUG, term.download(**first, **{"s_901_551_lab-2.xlsx": term.file(0, e=0.5)}))
@@ -103,21 +51,21 @@ def test_collecting_again_takes_in_only_what_is_new(term: Term) -> None:
     assert _row(term, 0).attempts == 2
 
 
-def test_a_trial_keeps_nothing(term: Term) -> None:
+def test_a_trial_keeps_nothing(term) -> None:
     collect(term.course, SLUG, term.download(**{"s_901_550_lab.xlsx": term.file(0)}), dry_run=True)
     with Gradebook.open(term.course) as book:
         assert book.receipts("collected") == ()
     assert not (term.course.folder / "inbox").exists()
 
 
-def test_where_platform_and_workbook_disagree_a_person_decides(term: Term) -> None:
+def test_where_platform_and_workbook_disagree_a_person_decides(term) -> None:
     (found,) = collect(term.course, SLUG, term.download(**{"s_902_550_lab.xlsx": term.file(0)}))
     assert found.status == "conflict"
     assert found.message == f"The workbook is {term.pids[0]}'s, the platform says {term.pids[1]}."
     assert grade_collected(term.course, SLUG) == []
 
 
-def test_the_workbook_alone_says_whose_it_is(term: Term) -> None:
+def test_the_workbook_alone_says_whose_it_is(term) -> None:
     folder = term.course.folder / "unpacked"
     (folder / "deep").mkdir(parents=True)
     (folder / "deep" / "anything.xlsx").write_bytes(term.file(2))
@@ -125,7 +73,7 @@ def test_the_workbook_alone_says_whose_it_is(term: Term) -> None:
     assert (found.status, found.pid, found.platform) == ("matched", term.pids[2], "")
 
 
-def test_what_nobody_can_read_is_kept_with_its_reason(term: Term) -> None:
+def test_what_nobody_can_read_is_kept_with_its_reason(term) -> None:
     found = collect(term.course, SLUG, term.download(**{"s_901_1_lab.xlsx": b"no", "other.xlsx": b"neither"}))
     assert [(item.status, item.pid) for item in found] == [("unreadable", term.pids[0]), ("unmatched", "")]
     with Gradebook.open(term.course) as book:
@@ -136,7 +84,7 @@ def test_what_nobody_can_read_is_kept_with_its_reason(term: Term) -> None:
     assert run(["gradebook", "verify", "--course", str(term.course.folder)]) == 0
 
 
-def test_a_changed_file_in_the_inbox_shows(term: Term, capsys) -> None:
+def test_a_changed_file_in_the_inbox_shows(term, capsys) -> None:
     collect(term.course, SLUG, term.download(**{"s_901_550_lab.xlsx": term.file(0)}))
     (kept,) = (path for path in (term.course.folder / "inbox").rglob("*") if path.is_file())
     kept.chmod(0o600)
@@ -171,7 +119,7 @@ late = { rule = "fixed", share = 0.5 }
 """
 
 
-def test_a_class_that_is_collected_later_is_not_late_but_what_blackboard_dates_is(term: Term) -> None:
+def test_a_class_that_is_collected_later_is_not_late_but_what_blackboard_dates_is(term) -> None:
     term.say(LATE)
     files = {
         "Lab_nobody_attempt_2026-05-01-23-00-00_lab.xlsx": term.file(0),
@@ -185,7 +133,7 @@ def test_a_class_that_is_collected_later_is_not_late_but_what_blackboard_dates_i
     assert "This attempt does not count" in closed.message
 
 
-def test_true_values_are_shown_when_nobody_can_hand_in_any_more(term: Term) -> None:
+def test_true_values_are_shown_when_nobody_can_hand_in_any_more(term) -> None:
     path = term.course.folder / "w.xlsx"
     path.write_bytes(term.file(0))
     for toml, is_shown in (("", False), (LATE.replace("2026", "2100"), False), (LATE, True)):
@@ -199,7 +147,7 @@ def test_true_values_are_shown_when_nobody_can_hand_in_any_more(term: Term) -> N
     assert "True value" not in Path(graded.feedback).read_text(encoding="utf-8")
 
 
-def test_a_file_that_nobody_dates_counts_as_in_time_unless_somebody_says(term: Term) -> None:
+def test_a_file_that_nobody_dates_counts_as_in_time_unless_somebody_says(term) -> None:
     term.say(LATE)
     path = term.course.folder / "w.xlsx"
     path.write_bytes(term.file(0))
@@ -213,7 +161,7 @@ def test_a_file_that_nobody_dates_counts_as_in_time_unless_somebody_says(term: T
 # ---------------------------------------------------------------- release
 
 
-def test_a_release_fixes_what_counts_and_the_next_one_says_what_changed(term: Term) -> None:
+def test_a_release_fixes_what_counts_and_the_next_one_says_what_changed(term) -> None:
     path = term.course.folder / "w.xlsx"
     for i in range(2):
         path.write_bytes(term.file(i))
@@ -233,7 +181,7 @@ def test_a_release_fixes_what_counts_and_the_next_one_says_what_changed(term: Te
         assert book.is_whole()
 
 
-def test_grading_again_adds_runs_and_a_release_says_what_changes(term: Term, monkeypatch) -> None:
+def test_grading_again_adds_runs_and_a_release_says_what_changes(term, monkeypatch) -> None:
     path = term.course.folder / "w.xlsx"
     for i in range(2):
         path.write_bytes(term.file(i))
@@ -248,7 +196,7 @@ def test_grading_again_adds_runs_and_a_release_says_what_changes(term: Term, mon
     assert run(["grade", "--again", SLUG, "--course", str(term.course.folder), "--workers", "1"]) == 0
 
 
-def test_a_file_that_is_named_twice_has_one_receipt(term: Term) -> None:
+def test_a_file_that_is_named_twice_has_one_receipt(term) -> None:
     path = term.course.folder / "w.xlsx"
     path.write_bytes(term.file(0))
     for _ in range(2):
@@ -258,7 +206,7 @@ def test_a_file_that_is_named_twice_has_one_receipt(term: Term) -> None:
     assert receipt.arrived.pid == term.pids[0]
 
 
-def test_several_workers_grade_as_one_does(term: Term) -> None:
+def test_several_workers_grade_as_one_does(term) -> None:
     folder = term.course.folder / "all"
     folder.mkdir()
     for i in range(3):
@@ -270,7 +218,7 @@ def test_several_workers_grade_as_one_does(term: Term) -> None:
     assert [item.status for item in alone] == ["ok", "ok", "ok", "unreadable"]
 
 
-def test_a_persons_decision_is_on_the_students_page_at_once(term: Term, capsys) -> None:
+def test_a_persons_decision_is_on_the_students_page_at_once(term, capsys) -> None:
     path = term.course.folder / "w.xlsx"
     path.write_bytes(term.file(0, e="about 0.6"))
     (graded,) = grade_files(term.course, [path])
@@ -290,14 +238,14 @@ def test_a_persons_decision_is_on_the_students_page_at_once(term: Term, capsys) 
     assert "may still become fewer" not in capsys.readouterr().out
 
 
-def test_what_nobody_could_grade_stays_on_the_class_page(term: Term) -> None:
+def test_what_nobody_could_grade_stays_on_the_class_page(term) -> None:
     collect(term.course, SLUG, term.download(**{"s_901_1_lab.xlsx": b"no", "s_902_2_lab.xlsx": term.file(1)}))
     grade_collected(term.course, SLUG)
     page = (term.course.folder / "feedback" / SLUG / "class.html").read_text(encoding="utf-8")
     assert f"lab.xlsx ({term.pids[0]})" in page
 
 
-def test_bytes_that_are_gone_from_the_inbox_stop_nobody_else(term: Term) -> None:
+def test_bytes_that_are_gone_from_the_inbox_stop_nobody_else(term) -> None:
     collect(term.course, SLUG, term.download(**{f"s_90{i + 1}_{i}_lab.xlsx": term.file(i) for i in range(2)}))
     with Gradebook.open(term.course) as book:
         gone = next(r for r in book.receipts("collected") if r.arrived.pid == term.pids[0]).arrived.file_sha256
@@ -306,7 +254,7 @@ def test_bytes_that_are_gone_from_the_inbox_stop_nobody_else(term: Term) -> None
     assert {item.pid: item.status for item in graded} == {term.pids[0]: "unreadable", term.pids[1]: "ok"}
 
 
-def test_nothing_graded_cannot_be_released(term: Term) -> None:
+def test_nothing_graded_cannot_be_released(term) -> None:
     with pytest.raises(NothingGradedError, match="expected grades, got none"):
         release_grades(term.course, SLUG, who="tutor")
 
@@ -314,7 +262,7 @@ def test_nothing_graded_cannot_be_released(term: Term) -> None:
 # ---------------------------------------------------------------- at the prompt
 
 
-def test_the_commands_collect_grade_and_release(term: Term, capsys) -> None:
+def test_the_commands_collect_grade_and_release(term, capsys) -> None:
     at = ["--course", str(term.course.folder)]
     download = str(term.download(**{"s_901_550_lab.xlsx": term.file(0), "s_902_1_lab.xlsx": term.file(1)}))
     assert run(["collect", SLUG, download, *at, "--dry-run"]) == 0
@@ -325,6 +273,8 @@ def test_the_commands_collect_grade_and_release(term: Term, capsys) -> None:
     assert [item["status"] for item in json.loads(capsys.readouterr().out)] == ["ok", "ok"]
     assert run(["grade", *at]) == 0
     assert "Nothing new was collected." in capsys.readouterr().out
+    assert run(["grade", *at, "--again", SLUG]) == 0
+    assert "2 files: 2 ok." in capsys.readouterr().out
     assert run(["release", SLUG, *at]) == 0
     assert "2 grades, 2 of them changed." in capsys.readouterr().out
     assert run(["collect", SLUG, str(term.download(**{"x.xlsx": b"no"})), *at]) == 1
@@ -332,7 +282,7 @@ def test_the_commands_collect_grade_and_release(term: Term, capsys) -> None:
     assert run(["collect", SLUG, download, *at, "--lms", "webct"]) == 2
 
 
-def test_what_is_no_download_is_one_line(term: Term) -> None:
+def test_what_is_no_download_is_one_line(term) -> None:
     nothing = term.course.folder / "nothing"
     nothing.mkdir()
     broken = term.course.folder / "broken.zip"

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import html.parser
 import json
 import os
 import re
@@ -18,14 +17,11 @@ from assignments.course import Course, new_course
 from assignments.load import load_assignment
 from assignments.variants import signature_of
 from assignments.workbook import fill_workbook, write_workbook
-from grader.errors import NoKeyError, RosterError, UnknownVariantError
-from grader.feedback import Report, class_page, feedback_page, verdict
+from grader.errors import NoKeyError, UnknownVariantError
 from grader.form import check_workbook
-from grader.grade import grade
-from grader.gradebook import Gradebook, Row, Student
+from grader.gradebook import Gradebook, Student
 from grader.grading import Wanted, grade_files
-from grader.model import Finding, Outcome
-from grader.roster import read_roster
+from grader.model import Outcome
 from vml_course.cli import run
 from vml_course.errors import FileMissingError
 
@@ -211,53 +207,6 @@ def test_two_graders_at_once_lose_nothing(room):
         assert book.is_whole()
 
 
-# ---------------------------------------------------------------- roster
-
-
-@pytest.mark.parametrize(
-    "text",
-    [
-        "name,email\nAna,a@x\nBen,b@x\n",
-        "\ufeffEmail;Name\na@x;Ana\nb@x;Ben\n",
-        "Name\tEmail\tid\nAna\ta@x\t1\n\nBen\tb@x\t2\n",
-    ],
-)
-def test_rosters_of_many_shapes_are_read(tmp_path, text):
-    (tmp_path / "r.csv").write_text(text, encoding="utf-8")
-    assert [(s.name, s.email) for s in read_roster(tmp_path / "r.csv")] == [("Ana", "a@x"), ("Ben", "b@x")]
-
-
-def test_a_roster_in_an_old_encoding_is_read(tmp_path):
-    (tmp_path / "r.csv").write_bytes("name,email\nJosé,j@x\n".encode("cp1252"))
-    assert read_roster(tmp_path / "r.csv")[0].name == "José"
-
-
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [
-        ("", "empty"),
-        ("a,b\n1,2\n", "name,email"),
-        ("name,email\nA,x@y\nB,X@y\n", "twice"),
-        ("name,email\n", "at least one student"),
-        ("name,email\nA,x@y\n,z@y\n", "line 3: expected a name"),
-        ("name,email\nDoe, Jane,x@y\n", "line 2: expected as many cells .* in quotes"),
-        ("name,email,group\nDoe, Jane,x@y\n", "line 2: expected an e-mail address"),
-    ],
-)
-def test_a_roster_that_is_none_is_told(tmp_path, text, words):
-    (tmp_path / "r.csv").write_text(text)
-    with pytest.raises(RosterError, match=words):
-        read_roster(tmp_path / "r.csv")
-
-
-def test_a_missing_roster_is_told(tmp_path):
-    with pytest.raises(FileMissingError, match="name,email"):
-        read_roster(tmp_path / "r.csv")
-
-
-# ---------------------------------------------------------------- grading a batch
-
-
 def test_a_batch_is_graded_recorded_and_explained(room):
     room.workbook(0)
     room.workbook(1, e=float(f"{1 / room.numbers(1).e:.4g}"))
@@ -340,83 +289,6 @@ def test_a_unit_that_was_not_chosen_is_said(room, capsys):
     shown = capsys.readouterr().out
     assert "choose one in column D" in shown
     assert "variant code" in shown
-
-
-# ---------------------------------------------------------------- pages
-
-
-class Tags(html.parser.HTMLParser):
-    def __init__(self, text: str):
-        super().__init__()
-        self.seen: list[tuple[str, dict]] = []
-        self.open: list[str] = []
-        self.feed(text)
-
-    def handle_starttag(self, tag, attrs):
-        self.seen.append((tag, dict(attrs)))
-        if tag not in {"meta", "br", "col", "line", "rect", "circle", "polyline"}:
-            self.open.append(tag)
-
-    def handle_startendtag(self, tag, attrs):
-        self.seen.append((tag, dict(attrs)))
-
-    def handle_endtag(self, tag):
-        assert self.open.pop() == tag
-
-    def names(self):
-        return [tag for tag, _ in self.seen]
-
-
-def report(desk, kit, **changes) -> Report:
-    values = {**desk.truth, **changes}
-    submission = kit.submission_of(desk.assignment, values, None, kit.table_of(kit.trajectory_m(desk.numbers)))
-    return Report(desk.assignment, submission, desk.key, grade(submission, desk.key, desk.assignment))
-
-
-def test_a_page_is_self_contained_and_well_formed(desk, kit):
-    page = feedback_page(report(desk, kit, e=0.2, v_b1="1,234"))
-    tags = Tags(page)
-    assert tags.open == []
-    assert "script" not in tags.names()
-    assert "link" not in tags.names()
-    assert "http" not in re.sub(r"http-equiv", "", page)
-    assert tags.names().count("h1") == 1
-    assert ("html", {"lang": "en"}) in tags.seen
-    assert any("default-src 'none'" in str(a) for tag, a in tags.seen if tag == "meta")
-    for tag, attributes in tags.seen:
-        if tag == "svg":
-            assert attributes["role"] == "img"
-    assert tags.names().count("svg") == tags.names().count("title") - 1 == 2
-
-
-def test_what_a_student_typed_cannot_leave_its_place(desk, kit):
-    page = feedback_page(report(desk, kit, v_b1='<script>alert("1")</script> 5'))
-    assert "<script" not in page
-    assert "&lt;script&gt;" in page
-
-
-def test_names_on_the_class_page_are_escaped(assignment):
-    row = Row(Student("abc", "<b>Bobby</b>"), "soccer-kick", 1, 5.0, 20.0, "review", "", {}, ("E1",), ("Look.",))
-    page = class_page(assignment, [row], [("<i>.xls", "an old workbook")])
-    assert "<b>Bobby" not in page
-    assert "<i>.xls" not in page
-    assert Tags(page).open == []
-
-
-def test_a_class_without_grades_has_a_page(assignment):
-    assert "Nothing has been graded yet" in class_page(assignment, [])
-
-
-def test_a_table_with_one_row_draws_no_curve(desk, kit):
-    submission = kit.submission_of(desk.assignment, desk.truth, None, {})
-    page = feedback_page(Report(desk.assignment, submission, desk.key, grade(submission, desk.key, desk.assignment)))
-    assert "<svg" not in page
-    assert "Paste your measured positions" in page
-
-
-def test_an_error_carried_on_is_shown_as_such():
-    finding = Finding("e", "value", Outcome.RIGHT, 1, 1, "", carried=True)
-    assert verdict([finding]).word == "carried on"
 
 
 # ---------------------------------------------------------------- check and hand out

@@ -11,10 +11,10 @@ from hypothesis import strategies as st
 from assignments.course import new_course
 from grader.errors import RosterError
 from grader.gradebook import Gradebook
-from grader.roster import Enrolled, decoded, parse_roster
+from grader.roster import Enrolled, decoded, parse_roster, read_roster
 from grader.rostering import import_roster, roster_of
 from vml_course.cli import run
-from vml_course.errors import InputError, VmlError
+from vml_course.errors import FileMissingError, InputError, VmlError
 
 CANVAS = """Student,ID,SIS User ID,SIS Login ID,Section,Collision lab (4711)
     Points Possible,,,,,10
@@ -237,6 +237,31 @@ def test_an_unknown_pseudonym_is_told(book) -> None:
         book.set_status("zz", "dropped")
 
 
+def test_a_list_of_one_late_student_does_not_list_everybody_else(tmp_path: Path, capsys) -> None:
+    course, file = str(tmp_path / "c"), tmp_path / "list.csv"
+    new_course(Path(course)).roster.unlink()
+    file.write_text("name,email\n" + "".join(f"S{i},s{i}@x.org\n" for i in range(4)), encoding="utf-8")
+    assert run(["roster", "import", str(file), "--course", course]) == 0
+    file.write_text("name,email\nLate,late@x.org\n", encoding="utf-8")
+    capsys.readouterr()
+    assert run(["roster", "import", str(file), "--course", course]) == 0
+    said = capsys.readouterr().out
+    assert "1 new, 0 known, 0 linked, 4 not listed." in said
+    assert "s0@x.org" not in said
+
+
+def test_dropped_students_are_marked_where_grades_are_shown(tmp_path: Path, capsys) -> None:
+    course = new_course(tmp_path / "c")
+    with Gradebook.open(course) as book:
+        pid = book.students_from_roster(course.roster)[1].pid
+    assert run(["roster", "drop", pid, "--course", str(course.folder)]) == 0
+    capsys.readouterr()
+    assert run(["gradebook", "show", "--course", str(course.folder)]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert [line.endswith("dropped") for line in lines if line.startswith(pid)] == [True]
+    assert sum(line.endswith("dropped") for line in lines) == 1
+
+
 def test_the_commands_take_in_show_drop_and_forget(tmp_path: Path, capsys) -> None:
     course, file = str(tmp_path / "c"), tmp_path / "canvas.csv"
     new_course(Path(course)).roster.unlink()
@@ -271,3 +296,50 @@ def test_an_extension_is_kept_in_the_settings_and_in_the_chain(tmp_path: Path, c
     assert run(["gradebook", "verify", "--course", str(tmp_path / "c")]) == 0
     assert "Chain of events: 4 events, unbroken." in capsys.readouterr().out
     assert run(["gradebook", "extend", "zz", "--hours", "1", "--reason", "x", "--course", str(tmp_path / "c")]) == 2
+
+
+# ---------------------------------------------------------------- the course's own file
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "name,email\nAna,a@x\nBen,b@x\n",
+        "\ufeffEmail;Name\na@x;Ana\nb@x;Ben\n",
+        "Name\tEmail\tid\nAna\ta@x\t1\n\nBen\tb@x\t2\n",
+    ],
+)
+def test_rosters_of_many_shapes_are_read(tmp_path, text):
+    (tmp_path / "r.csv").write_text(text, encoding="utf-8")
+    assert [(s.name, s.email) for s in read_roster(tmp_path / "r.csv")] == [("Ana", "a@x"), ("Ben", "b@x")]
+
+
+def test_a_roster_in_an_old_encoding_is_read(tmp_path):
+    (tmp_path / "r.csv").write_bytes("name,email\nJosé,j@x\n".encode("cp1252"))
+    assert read_roster(tmp_path / "r.csv")[0].name == "José"
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("", "empty"),
+        ("a,b\n1,2\n", "name,email"),
+        ("name,email\nA,x@y\nB,X@y\n", "twice"),
+        ("name,email\n", "at least one student"),
+        ("name,email\nA,x@y\n,z@y\n", "line 3: expected a name"),
+        ("name,email\nDoe, Jane,x@y\n", "line 2: expected as many cells .* in quotes"),
+        ("name,email,group\nDoe, Jane,x@y\n", "line 2: expected an e-mail address"),
+    ],
+)
+def test_a_roster_that_is_none_is_told(tmp_path, text, words):
+    (tmp_path / "r.csv").write_text(text)
+    with pytest.raises(RosterError, match=words):
+        read_roster(tmp_path / "r.csv")
+
+
+def test_a_missing_roster_is_told(tmp_path):
+    with pytest.raises(FileMissingError, match="name,email"):
+        read_roster(tmp_path / "r.csv")
+
+
+# ---------------------------------------------------------------- grading a batch

@@ -8,6 +8,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from assignments.model import NOBODY
+from assignments.workbook import fill_workbook, write_workbook
 from grader.consistent import _OF_FLAGS, remarks_on
 from grader.form import check_workbook
 from grader.read import ReadRequest, find_submission, read_workbook
@@ -52,7 +54,7 @@ def test_a_good_workbook_has_no_remark(desk):
         ({"fps": 30.0}, "The table runs at 480 frames a second, but you wrote 30."),
         ({"v_f1": 99.0}, "v_f1 is not ω_1 times L"),
         ({"omega1": -20.0}, "foot turns counter-clockwise about knee; the sign of ω_1 says otherwise."),
-        ({"e": "0,7"}, "e is a number written as text; it was understood."),
+        ({"e": "0,7"}, "Numbers written as text, which were understood: e."),
     ],
 )
 def test_numbers_that_disagree_are_named(desk, changes, words):
@@ -139,6 +141,21 @@ def test_the_command_prints_it(desk, capsys):
     assert "! e = 1.4 is unusual" in capsys.readouterr().out
     assert run(["check", path, "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["is_complete"] is True
+
+
+def test_a_practice_workbook_is_said_to_be_nobodys(desk, tmp_path, kit, capsys):
+    empty, filled = tmp_path / "empty.xlsx", tmp_path / "filled.xlsx"
+    write_workbook(empty, desk.assignment, kit.variant_of(student=NOBODY), {g.id: 1.0 for g in desk.assignment.givens})
+    numbers = kit.impact()
+    units = {q.id: q.unit for q in desk.assignment.questions if q.unit}
+    fill_workbook(empty, filled, kit.rounded(kit.true_values(numbers)), units, kit.table_of(kit.trajectory_m(numbers)))
+    assert run(["check", str(filled)]) == 0
+    assert "it is a practice workbook, which nobody can hand in" in capsys.readouterr().out
+
+
+def test_numbers_written_as_text_are_told_in_one_line(desk):
+    (said,) = remarks(desk, {"e": "0,7", "I": "0,9"})
+    assert said == "Numbers written as text, which were understood: e, I."
 
 
 def test_nothing_of_the_truth_is_said(desk):
