@@ -73,13 +73,12 @@ def grade(submission: Submission, key: AnswerKey, assignment: Assignment) -> Gra
 
 def in_order(questions: Iterable[Question]) -> Iterator[Question]:
     """Yield questions after those they need; the order within a storey is kept, circles are broken."""
-    waiting, done = list(questions), set[str]()
+    waiting = list(questions)
     while waiting:
-        known = {question.id for question in waiting}
-        ready = [q for q in waiting if not (set(q.needs) & known) - done - {q.id}] or waiting[:1]
+        open_ = {question.id for question in waiting}
+        ready = [q for q in waiting if not set(q.needs) & open_ - {q.id}] or waiting[:1]
         yield from ready
-        done |= {question.id for question in ready}
-        waiting = [question for question in waiting if question.id not in done]
+        waiting = [question for question in waiting if question not in ready]
 
 
 def _judge(judged: _Judged, asked: Asked) -> _Judged:

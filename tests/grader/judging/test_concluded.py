@@ -324,7 +324,7 @@ def test_another_arm_is_followed_for_bodies_that_moved_only(kick):
 
 @pytest.mark.parametrize("unread", ["about 10", "9..1"])
 def test_a_conclusion_from_a_number_that_nobody_could_read_stays_open(kick, unread):
-    findings = kick.judge("e", {"v_b2": unread, "e": 0.3}, factors=())
+    findings = kick.judge("e", {"v_b2": unread, "e": -kick.truth["e"]}, factors=())
     assert told(findings) == {"formula": ("unsure", 3.0), "value": ("unsure", 3.0)}
     assert "from v_b2, which could not be read; a person will look" in findings["formula"].message
     assert "before a person has read them" in findings["value"].message

@@ -9,22 +9,30 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from assignments.model import Question
+from grader import checks
 from grader import grade as grading
 from grader.checks import check_named, check_names, explanation_of
 from grader.grade import TRACKING, grade, in_order
 from grader.levels import LEVELS, levels_of
 from grader.model import Answer, Diagnosis, Finding, Grade, Kind, Outcome, Submission, overall
-from grader.tracked import FromTable
+from grader.tracked import OUR_FAILURE, FromTable
 from vml_course.errors import UnknownNameError
 
 
 @pytest.fixture
 def quick(monkeypatch, kick):
     """Grade answers of the kick with a table that supports the truth, without solving one."""
-    monkeypatch.setattr(grading, "from_table", lambda *_: FromTable(kick.table.fit, dict(kick.truth), {}))
 
-    def graded(answers=None, assignment=kick.assignment, submission=None, key=kick.key):
-        return grade(submission or kick.submission(answers), key, assignment)
+    def graded(answers=None, assignment=kick.assignment, submission=None, key=kick.key, **table):
+        submission = submission or kick.submission(answers)
+
+        def from_table(tracking, *others):
+            assert tracking is submission.tracking or not tracking
+            assert others == (key, assignment)
+            return FromTable(**{"fit": kick.table.fit, "values": dict(kick.truth), **table})
+
+        monkeypatch.setattr(grading, "from_table", from_table)
+        return grade(submission, key, assignment)
 
     return graded
 
@@ -126,6 +134,24 @@ def test_a_truth_that_the_key_does_not_know_costs_nothing(quick, kick):
     assert by_aspect(result, "v_b1")["value"].outcome is Outcome.UNSURE
 
 
+def test_a_table_that_we_could_not_work_with_is_named_to_a_person(quick):
+    result = quick(fit=None, values={}, why_not=OUR_FAILURE)
+    assert result.reasons == ("Unsure about e, I, tracking.",)
+    assert result.points == 20
+
+
+def test_of_two_readings_of_a_comma_the_one_near_the_truth_is_meant(quick):
+    assert by_aspect(quick({"px_per_m": "1,234"}), "px_per_m")["value"].message.startswith("Read as 1234. ")
+
+
+def test_another_arm_used_throughout_is_named_with_its_length(quick, kick):
+    v1, v2 = 0.9 * kick.truth["v_f1"], 0.9 * kick.truth["v_f2"]
+    result = quick({"v_f1": v1, "v_f2": v2, "e": (kick.truth["v_b2"] - v2) / v1, "I": 0.9 * kick.truth["I"]})
+    (hint,) = result.diagnosis
+    assert hint.codes == ("K12",)
+    assert "0.45 m" in hint.hint
+
+
 def test_how_a_comma_was_read_is_said_once(quick, kick):
     findings = by_aspect(quick({"v_b2": "9,703"}), "v_b2")
     assert findings["value"].message.startswith("Read as 9.703. ")
@@ -194,7 +220,7 @@ def test_a_workbook_without_answers_is_empty_and_says_which_kind(quick, kick):
 
 def test_dust_of_adding_is_swept_off(quick, kick, monkeypatch):
     def thirds(asked):
-        return (Finding(asked.question.id, "value", Outcome.RIGHT, 0.1 + 1e-9, 0.1 + 1e-9, ""),)
+        return (Finding(asked.question.id, "value", Outcome.RIGHT, 0.1 + 2e-8, 0.1 + 2e-8, ""),)
 
     monkeypatch.setattr(grading, "check_named", lambda _: thirds)
     result = quick()
@@ -220,6 +246,8 @@ def test_questions_follow_what_they_need_keep_their_order_and_break_circles():
     ]
     assert [q.id for q in in_order(questions)] == ["self", "a", "b", "c", "x", "y", "z"]
     assert list(in_order([])) == []
+    circle = [question("x", "y"), question("after", "y"), question("y", "x")]
+    assert [q.id for q in in_order(circle)] == ["x", "y", "after"]
 
 
 @given(
@@ -313,6 +341,7 @@ def test_an_answer_that_was_not_found_is_blank():
 def test_a_question_ends_as_its_worst_aspect_softened_where_much_was_earned(outcomes, points, expected):
     assert overall(map(Outcome, outcomes), points, 2.0) == expected
     assert overall([Outcome.WRONG], 0.0, 0.0) is Outcome.WRONG
+    assert overall([Outcome.WRONG], 0.2, 0.5) is Outcome.PARTIAL
 
 
 def test_points_that_a_person_has_still_to_confirm_are_provisional():
@@ -333,8 +362,15 @@ def test_each_check_is_found_by_its_name_and_explains_itself():
         assert len(text) > 40
         assert "\n" not in text
         assert "  " not in text
+    words = "Compare with the true angle, in radians or degrees as you chose; unit and value are judged apart."
+    assert explanation_of("angle") == words
     with pytest.raises(UnknownNameError, match=r"check: .*velocity.*'speed'"):
         check_named("speed")
+
+
+def test_a_check_without_words_explains_nothing(monkeypatch):
+    monkeypatch.setattr(checks, "check_named", lambda _: lambda asked: ())
+    assert explanation_of("angle") == ""
 
 
 @pytest.mark.parametrize(

@@ -61,6 +61,11 @@ def test_a_scale_pays_for_no_angular_velocity(bench):
     assert judged(bench, "omega1", of("K5", ids=RATES), charged={"px_per_m"}).outcome is Outcome.WRONG
 
 
+def test_a_factor_of_both_kinds_belongs_to_the_first(bench):
+    both = of("K5", ids=("omega1", "v_f1"))
+    assert judged(bench, "omega1", both, charged={"px_per_m"}).outcome is Outcome.WRONG
+
+
 def test_a_clock_that_spoils_velocities_and_rates_is_paid_once(bench):
     """Both kinds are off by the same rate of playback; the first velocity pays for the rates, too."""
     clocks = of("K2"), of("K2", ids=RATES)
@@ -77,7 +82,7 @@ def test_slips_of_different_kinds_are_paid_apart(bench):
     assert judged(bench, "omega1", same_code[1], factors=same_code).outcome is Outcome.WRONG
 
 
-@pytest.mark.parametrize("codes", [("K1",), ("K1b",), ("K1c",), ("K1", "K1b")])
+@pytest.mark.parametrize("codes", [("K1",), ("K1b",), ("K1c",), ("K1", "K1b", "K1c")])
 @pytest.mark.parametrize("charged", [(), ("px_per_m",)])
 def test_pixels_are_a_step_left_out_half_of_the_points(bench, codes, charged):
     finding = judged(bench, "v_b2", of(*codes, value=500.0), charged=charged)

@@ -56,8 +56,12 @@ def test_a_stated_uncertainty_is_in_the_same_unit():
     assert typed("12.5", unit="m/s").uncertainty is None
 
 
-@pytest.mark.parametrize("stated", [typed("740 px/s"), number("740", unit="px/s"), typed("740", unit="px/s")])
-def test_pixels_say_so(stated):
+@pytest.mark.parametrize(
+    "read",
+    [lambda: typed("740 px/s"), lambda: number("740", unit="px/s"), lambda: typed("740", unit="px/s")],
+)
+def test_pixels_say_so(read):
+    stated = read()
     assert (stated.value, stated.half_unit, stated.unit_given, stated.in_pixels) == (740.0, 0.0, True, True)
     assert stated.text == "740 px/s"
     assert not number("740").in_pixels
@@ -143,23 +147,32 @@ def cell(kind, text="", number=None, found_by="name"):
 
 
 @pytest.mark.parametrize(
-    ("unstated", "outcome", "words"),
+    ("read", "outcome", "words"),
     [
-        (cell(Kind.BLANK), "wrong", ["Nothing is written here"]),
-        (cell(Kind.BOOL, "TRUE"), "wrong", ["TRUE or FALSE", "not a number"]),
-        (cell(Kind.ERROR, "#DIV/0!"), "wrong", ["#DIV/0!", "Check the cells that it uses"]),
-        (cell(Kind.UNCACHED), "unsure", ["never worked out", "Open the workbook", "save", "hand in again"]),
-        (cell(Kind.DATE, "2026-03-04", 46085.0), "unsure", ["2026-03-04 and holds the number 46085:", "format"]),
-        (cell(Kind.DATE, "2026-03-04"), "unsure", ["a date, 2026-03-04: the spreadsheet", "A person will look"]),
-        (cell(Kind.TEXT, "1; 2", found_by=SEVERAL), "unsure", ["Answers!C7", "1; 2", "Keep one", "A person"]),
-        (typed("1,234", unit="m/s"), "unsure", ["'1,234' can be read in two ways", "Write 1.234 or 1234"]),
-        (typed("fast"), "unsure", ["Expected a number", "'fast'", "A person will look"]),
-        (typed("12 parsec"), "unsure", ["Expected a unit of velocity", "'parsec'", "A person will look"]),
-        (number("12", unit="parsec"), "unsure", ["Expected a unit of velocity", "'parsec'"]),
-        (typed("740 px/s ± 3 m/s"), "unsure", ["Expected", "A person will look"]),
+        (lambda: cell(Kind.BLANK), "wrong", ["Nothing is written here"]),
+        (lambda: cell(Kind.BOOL, "TRUE"), "wrong", ["TRUE or FALSE", "not a number"]),
+        (lambda: cell(Kind.ERROR, "#DIV/0!"), "wrong", ["#DIV/0!", "Check the cells that it uses"]),
+        (lambda: cell(Kind.UNCACHED), "unsure", ["never worked out", "Open the workbook", "save", "hand in again"]),
+        (
+            lambda: cell(Kind.DATE, "2026-03-04", 46085.0),
+            "unsure",
+            ["2026-03-04 and holds the number 46085:", "format"],
+        ),
+        (
+            lambda: cell(Kind.DATE, "2026-03-04"),
+            "unsure",
+            ["a date, 2026-03-04: the spreadsheet", "A person will look"],
+        ),
+        (lambda: cell(Kind.TEXT, "1; 2", found_by=SEVERAL), "unsure", ["Answers!C7", "1; 2", "Keep one", "A person"]),
+        (lambda: typed("1,234", unit="m/s"), "unsure", ["'1,234' can be read in two ways", "Write 1.234 or 1234"]),
+        (lambda: typed("fast"), "unsure", ["Expected a number", "'fast'", "A person will look"]),
+        (lambda: typed("12 parsec"), "unsure", ["Expected a unit of velocity", "'parsec'", "A person will look"]),
+        (lambda: number("12", unit="parsec"), "unsure", ["Expected a unit of velocity", "'parsec'"]),
+        (lambda: typed("740 px/s ± 3 m/s"), "unsure", ["Expected", "A person will look"]),
     ],
 )
-def test_why_a_cell_says_nothing(unstated, outcome, words):
+def test_why_a_cell_says_nothing(read, outcome, words):
+    unstated = read()
     assert isinstance(unstated, Unstated)
     assert unstated.outcome is Outcome(outcome)
     for word in words:
