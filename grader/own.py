@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property, partial
 from itertools import islice
 
@@ -34,7 +34,7 @@ class OwnNumbers:
 
     written: Values
     build: Callable[[Values], Numbers]
-    half_units: Mapping[str, float]
+    half_units: Mapping[str, float] = field(default_factory=dict)
 
     @cached_property
     def numbers(self) -> Numbers:
@@ -113,7 +113,7 @@ def own_numbers(submission: Submission, key: AnswerKey, questions: Mapping[str, 
 def field_ids(key: AnswerKey, questions: Mapping[str, Question]) -> dict[str, str]:
     """Return the question behind each field of the formulas' numbers; `own_phi` is the conclusion phi as written."""
     book = textbook_of(key.scene)
-    known = {field.name for field in fields(book.numbers)}
+    known = {item.name for item in fields(book.numbers)}
     concluded = {f"own_{item.id}": item.id for item in book.concluded}
     ids = {item.field: item.id for item in book.measured if item.id in questions}
     return ids | {name: id_ for name, id_ in concluded.items() if name in known and id_ in questions}

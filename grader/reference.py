@@ -84,7 +84,7 @@ def _by_question(
     sds = {id_: found.estimates[id_].sd for id_ in values}
     fields = {item.field: item.id for item in book.measured if item.id in values}
     known = {field: values[id_] for field, id_ in fields.items()}
-    way = OwnNumbers({**book.resting(key.values), **known}, partial(book.record, given=key.given), {})
+    way = OwnNumbers({**book.resting(key.values), **known}, partial(book.record, given=key.given))
     field_sds = {field: sds[id_] for field, id_ in fields.items()}
     for item in book.concluded:
         if item.id in asked and item.id not in values and math.isfinite(way.value(item.formula)):

@@ -100,7 +100,7 @@ def test_speed_and_rate_stand_for_one_another(kick, gone):
 
 
 @given(st.floats(0.2, 5), st.floats(0.2, 5), st.floats(0.2, 5))
-@settings(max_examples=40)
+@settings(max_examples=40, deadline=None)
 def test_what_follows_from_any_numbers_has_the_formulas_points(kick, v_f1, v_f2, v_b2):
     answers = off(kick, v_f1=v_f1, v_f2=v_f2, v_b2=v_b2)
     finding = kick.judge("e", {**answers, "e": e_of(kick, answers)}, factors=())["formula"]

@@ -65,14 +65,14 @@ def test_a_finding_keeps_the_facts_behind_it(plain):
 
 
 @given(st.floats(0, 20), st.floats(0, 20))
-@settings(max_examples=40)
+@settings(max_examples=40, deadline=None)
 def test_what_is_nearer_never_earns_less(plain, one, other):
     near, far = sorted((one, other), key=lambda value: abs(value - 4.0))
     assert of_v_b2(plain, near)["value"].points >= of_v_b2(plain, far)["value"].points
 
 
 @given(st.floats(-20, 20))
-@settings(max_examples=40)
+@settings(max_examples=40, deadline=None)
 def test_signs_mirror(plain, value):
     """Where the truth is negative, all is judged the same the other way round."""
     mirrored = plain.with_key(values={"v_b2": -4.0})
@@ -81,7 +81,7 @@ def test_signs_mirror(plain, value):
 
 
 @given(st.floats(0.1, 20), st.sampled_from(sorted(UNITS["velocity"])))
-@settings(max_examples=40)
+@settings(max_examples=40, deadline=None)
 def test_the_unit_never_changes_a_mark(plain, value, unit):
     """But for the dust of converting, kept away from the edges."""
     if min(abs(abs(value - 4.0) - edge) for edge in (1.0, 2.0)) < 1e-6:
@@ -159,7 +159,7 @@ def test_a_tolerance_without_a_unit_ends_without_one(kick):
 
 
 @given(st.floats(0.001, 1000), st.floats(0, 1))
-@settings(max_examples=40)
+@settings(max_examples=40, deadline=None)
 def test_the_words_of_a_floor_give_no_truth_away(kick, truth, floor):
     """Telling a floor as a share would: whoever knows it could work out the truth."""
     bench = kick.with_question("v_b1", floor=floor).with_key(values={"v_b1": truth})

@@ -78,10 +78,34 @@ def test_rows_that_are_there_twice_count_once(kit, kick):
     assert from_table(twice, kick.key, kick.assignment).values["e"] == pytest.approx(kick.truth["e"], rel=5e-3)
 
 
-def test_rows_outside_of_the_clip_are_left_out(kit, kick):
-    xy = kit.trajectory_m(kit.impact(), frames=80)
-    found = from_table(kit.table_of(xy), kick.key, kick.assignment)
-    assert found.values["e"] == pytest.approx(kick.truth["e"], rel=5e-3)
+def test_rows_outside_of_the_clip_and_rows_that_are_there_twice_are_left_out(kit, kick, monkeypatch):
+    model = SimpleNamespace(given=(), optional=(), solve=Mock(return_value=Mock(estimates={})))
+    monkeypatch.setattr(reference, "impact_model", lambda _: model)
+    table = kit.table_of(kit.trajectory_m(kit.impact(), frames=80, at_s=0.06 + 5 / 480))
+    table = {name: np.concatenate([column, column]) for name, column in table.items()}
+    from_table({**table, "frame": table["frame"] - 5}, kick.key, kick.assignment)
+    (motion, *_), _ = model.solve.call_args
+    assert motion.frame.tolist() == list(range(60))
+    assert motion.time_s == pytest.approx(np.arange(60) / 480)
+
+
+def test_numbers_without_a_value_raise_no_alarm(kit, kick, monkeypatch):
+    def solve(*_):
+        return Mock(estimates={"e": Estimate(float(np.float64(1.0) / np.float64(0.0)), 0.0)})
+
+    monkeypatch.setattr(reference, "impact_model", lambda _: SimpleNamespace(given=(), optional=(), solve=solve))
+    assert from_table(kit.table_of(kit.trajectory_m(kit.impact())), kick.key, kick.assignment).values["e"] == math.inf
+
+
+def test_the_window_of_the_assignment_is_the_one_that_is_fitted(kit, kick):
+    narrow = replace(kick.assignment, solve={**kick.assignment.solve, "window_s": 0.03})
+    assert from_table(kit.table_of(kit.trajectory_m(kit.impact())), kick.key, narrow).window_s == 0.03
+
+
+def test_a_row_at_the_very_impact_is_after_it(kick):
+    fit = kick.table.fit
+    assert kick.table.rows(float(fit.time_s[29])) == (29, 31)
+    assert kick.table.rows(float(fit.time_s[29]) + 1e-9) == (30, 30)
 
 
 def test_what_the_solver_does_not_name_follows_by_its_formula(bounce, kit, monkeypatch):
@@ -295,6 +319,8 @@ def test_a_rate_needs_the_two_marks_of_its_direction(kick, pucks):
     one = replace(fit, rms_px=1.0, points=("foot", "ball"), own_m=fit.own_m[:, [0, 2]])
     assert spread_of_measured(kick.with_table(fit=one).asked("omega1", factors=())) == 0
     assert spread_of_measured(kick.with_table(fit=one).asked("v_b2", factors=())) > 0
+    leg = replace(fit, rms_px=1.0, points=("foot", "knee"), own_m=fit.own_m[:, :2])
+    assert spread_of_measured(kick.with_table(fit=leg).asked("omega1", factors=())) == spread(kick, "omega1")
 
 
 def test_a_conclusion_takes_the_spreads_of_its_numbers(kick):

@@ -38,15 +38,14 @@ def judged(bench, points=10.0, columns=None, **changes):
         (1.0, "right", 10.0, "lie 1 px (root mean square) from the true ones."),
         (1.01, "partial", 5.0, "lie 1 px (root mean square) from the true ones. A careful hand stays within 1 px."),
         (4.0, "partial", 5.0, "lie 4 px (root mean square) from the true ones. A careful hand stays within 1 px."),
-        (4.01, "wrong", 0.0, "lie 4 px"),
-        (123.0, "wrong", 0.0, "lie 1.2e+02 px"),
+        (4.01, "wrong", 0.0, "lie 4 px (root mean square) from the true ones. A careful hand stays within 1 px."),
     ],
 )
 def test_a_table_earns_by_its_distance_in_pixels(kick, rms_px, outcome, points, words):
     finding = judged(kick, rms_px=rms_px)
     assert (finding.question_id, finding.aspect, finding.mistake) == ("tracking", "table", "")
     assert (finding.outcome, finding.points, finding.out_of) == (outcome, points, 10.0)
-    assert finding.message.startswith(f"Your points {words}")
+    assert finding.message == f"Your points {words}"
     assert finding.numbers == {"rms_px": rms_px, "scale_ratio": 1.0, "lag_frames": 0.0}
 
 
@@ -223,7 +222,7 @@ def test_a_true_table_has_no_fault(lay, kit):
 @given(
     st.floats(0.01, 1000), st.sampled_from([1, -1]), st.sampled_from([1, -1]), st.floats(-50, 50), st.floats(-50, 50)
 )
-@settings(max_examples=25)
+@settings(max_examples=25, deadline=None)
 def test_scale_shift_and_axes_are_found_whatever_they_are(lay, scale, right, up, x, y):
     fit = lay(lambda xy: xy * np.array([right, up]) * scale + np.array([x, y]))
     assert fit.scale_ratio == pytest.approx(scale, rel=1e-6)
@@ -255,6 +254,12 @@ def test_a_count_from_elsewhere_is_found_where_it_is_looked_for(lay, lag):
 def test_a_part_of_the_film_counted_from_elsewhere_is_found(lay):
     fit = lay(shift=400.0, rows=slice(15, 45), is_far_tried=True)
     assert fit.lag_frames == pytest.approx(400.0, abs=0.026)
+
+
+def test_a_clip_that_is_itself_counted_from_elsewhere_is_reached(kit, kick):
+    key = replace(kick.key, frame=np.arange(60) + 300)
+    fit = fit_trajectory(kit.table_of(kit.trajectory_m(kit.impact())), key, is_far_tried=True)
+    assert fit.lag_frames == pytest.approx(-300, abs=0.026)
 
 
 def test_a_table_far_longer_than_the_clip_is_not_searched(kit, kick):
