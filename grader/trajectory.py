@@ -19,7 +19,6 @@ LEAST_ROWS = 10
 LARGEST_LAG = 12.0  # frames
 SCALE_SLIP = 0.02  # relative error of a scale that is one
 CLEAR_SDS = 5.0  # a delay is one when the fit without it is so much worse
-LONGEST = 2.0  # clips that table and clip may be together, halved, to try each far delay
 _FINE = 0.05  # frames
 HOPELESS, CLEARLY = 0.05, 0.2
 """Points are tried the other way round when the rest is more than this part of their paths, and that must be so much
@@ -172,12 +171,10 @@ def _is_hopeless(best: _Trial | None, truth: FloatArray) -> bool:
 
 
 def _far(frame: FloatArray, own: FloatArray, true_frame: FloatArray) -> _Search:
-    """Search all delays at which half of the table lies within the clip; none of a table that is far longer."""
+    """Search all delays at which half of the table lies within the clip: its middle row does so, too."""
     used = frame[_rows(own)]
-    centre = round((used[0] + used[-1] - true_frame[0] - true_frame[-1]) / 2)
-    reach = (used[-1] - used[0] + true_frame[-1] - true_frame[0]) / 2
-    steps = ((1.0, float(np.floor(reach))), *_FINER) if reach <= LONGEST * true_frame.size else ()
-    return _Search(centre, steps, max(LEAST_ROWS, used.size / 2))
+    centre = np.round(np.median(used) - np.median(true_frame))
+    return _Search(float(centre), ((1.0, true_frame.size // 2), *_FINER), max(LEAST_ROWS, used.size / 2))
 
 
 def _not_late(best: _Trial, own: FloatArray, at: FloatArray) -> _Trial:

@@ -256,13 +256,22 @@ def test_a_part_of_the_film_counted_from_elsewhere_is_found(lay):
     assert fit.lag_frames == pytest.approx(400.0, abs=0.026)
 
 
+@pytest.mark.parametrize(("first", "is_found"), [(39, True), (41, False)])
+def test_half_of_a_table_must_lie_within_the_clip(kit, kick, first, is_found):
+    """Of 40 rows 21 do, or 19."""
+    table = kit.table_of(kit.trajectory_m(kit.impact(), frames=90))
+    table = {name: column[first : first + 40] for name, column in table.items()}
+    fit = fit_trajectory({**table, "frame": table["frame"] + 400}, kick.key, is_far_tried=True)
+    assert (fit is not None and fit.rms_px < 1e-6 and fit.lag_frames == pytest.approx(400.0)) == is_found
+
+
 def test_a_clip_that_is_itself_counted_from_elsewhere_is_reached(kit, kick):
     key = replace(kick.key, frame=np.arange(60) + 300)
     fit = fit_trajectory(kit.table_of(kit.trajectory_m(kit.impact())), key, is_far_tried=True)
     assert fit.lag_frames == pytest.approx(-300, abs=0.026)
 
 
-def test_a_table_far_longer_than_the_clip_is_not_searched(kit, kick):
+def test_a_table_of_which_hardly_a_row_lies_in_the_clip_fits_nothing(kit, kick):
     table = kit.table_of(kit.trajectory_m(kit.impact()))
     table["frame"] = 1000 + 50 * table["frame"]
     assert fit_trajectory(table, kick.key, is_far_tried=True) is None
