@@ -66,7 +66,7 @@ def _ways(asked: Asked) -> tuple[OwnNumbers, ...]:
     """Return the student's own numbers; with the arm that they worked with, where that is another than L."""
     ways = own_numbers(asked.submission, asked.key, asked.questions)
     arm = _arm_of(asked)
-    return ways if arm is None else (*(with_arm(way, arm) for way in ways[:1]), *ways)
+    return ways if arm is None else (*(with_arm(way, arm) for way in ways), *ways)
 
 
 def _arm_of(asked: Asked) -> Factor | None:

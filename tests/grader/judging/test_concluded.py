@@ -224,7 +224,8 @@ def test_an_e_along_the_own_wrong_direction_is_carried(pucks):
 def test_a_direction_below_the_axis_is_carried_as_one_above(pucks):
     """y was taken downwards, which cost where it arose; phi is negative then, and follows."""
     down = {name: -pucks.truth[name] for name in ("v_a2y", "v_b2y", "phi")}
-    assert pucks.judge("phi", down, charged=frozenset({"v_a2y", "v_b2y"}))["value"].carried
+    finding = pucks.judge("phi", down, charged=frozenset({"v_a2y", "v_b2y"}))["value"]
+    assert (finding.carried, finding.mistake) == (True, "")
 
 
 def test_a_slip_to_the_left_is_carried_as_one_to_the_right(bounce):

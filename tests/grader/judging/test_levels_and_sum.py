@@ -27,7 +27,8 @@ def quick(monkeypatch, kick):
         submission = submission or kick.submission(answers)
 
         def from_table(tracking, *others):
-            assert tracking is submission.tracking or not tracking
+            assert tracking is not None
+            assert tracking.keys() == submission.tracking.keys()
             assert others == (key, assignment)
             return FromTable(**{"fit": kick.table.fit, "values": dict(kick.truth), **table})
 

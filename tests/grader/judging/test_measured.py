@@ -144,6 +144,11 @@ def test_the_largest_tolerance_holds_and_is_told(plain, floor, sd, half_width, w
     assert tolerance_of(bench.asked("v_b2")) == Tolerance(half_width, words)
 
 
+def test_an_sd_that_nobody_knows_allows_nothing(plain):
+    bench = plain.with_question("v_b2", tolerance=0.125).with_key(expected_sd={"v_b2": math.nan})
+    assert tolerance_of(bench.asked("v_b2")).half_width == 0.5
+
+
 @pytest.mark.parametrize(
     ("sd", "words"),
     [(0.25, "within 19 %"), (0.28, "within 0.84 m/s"), (4 / 15, "within 0.8 m/s"), (0.1, "within 7.5 %")],

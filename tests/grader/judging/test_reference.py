@@ -120,6 +120,7 @@ def test_what_the_solver_does_not_name_follows_by_its_formula(bounce, kit, monke
     motion, given, options = model.solve.call_args.args
     assert given == {"m": 0.6, "R": 0.12}
     assert found.window_s == options.window_s
+    assert (options.striker, options.struck, options.flight) == ("rim", "ball", "always")
     assert motion.sigma_m.shape == (60, 3)
     assert np.isnan(motion.sigma_m).all()
 
