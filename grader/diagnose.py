@@ -17,8 +17,8 @@ from assignments.textbook import textbook_of
 from assignments.theory import Formula, Mistake, Numbers, Textbook, value_of
 from grader.arm import CODE as ARM
 from grader.arm import arm_hint
+from grader.concluding import follows_from
 from grader.hints import hint_for
-from grader.judging import follows_from
 from grader.model import Diagnosis, Factor, Outcome, Submission
 from grader.own import OwnNumbers, own_numbers, true_numbers
 from grader.stated import Stated, state

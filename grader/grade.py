@@ -32,6 +32,7 @@ class _Judged:
 
     findings: tuple[Finding, ...] = ()
     charged: frozenset[str] = frozenset()
+    carried: frozenset[str] = frozenset()
 
 
 def grade(submission: Submission, key: AnswerKey, assignment: Assignment) -> Grade:
@@ -58,7 +59,8 @@ def grade(submission: Submission, key: AnswerKey, assignment: Assignment) -> Gra
     has_points = any(question.check == TRACKING.check for question in assignment.questions)
     judged = _Judged()
     for question in (*in_order(assignment.questions), *(() if has_points else (TRACKING,))):
-        judged = _judge(judged, Asked(submission, key, question, judged.charged, factors, questions, table))
+        asked = Asked(submission, key, question, judged.charged, factors, questions, table, judged.carried)
+        judged = _judge(judged, asked)
     diagnosis = (*diagnose_factors(factors, key, questions), *_diagnoses(submission, key, questions, judged.findings))
     findings = _named(judged.findings, diagnosis)
     return _sum_up(submission, assignment, findings, one_hint_a_cause(with_marks(diagnosis, judged.findings)))
@@ -66,13 +68,12 @@ def grade(submission: Submission, key: AnswerKey, assignment: Assignment) -> Gra
 
 def in_order(questions: Iterable[Question]) -> Iterator[Question]:
     """Yield questions after those they need; the order within a storey is kept, circles are broken."""
-    waiting, done = list(questions), set[str]()
+    waiting = list(questions)
     while waiting:
-        known = {question.id for question in waiting}
-        ready = [q for q in waiting if not (set(q.needs) & known) - done - {q.id}] or waiting[:1]
+        open_ = {question.id for question in waiting}
+        ready = [q for q in waiting if not set(q.needs) & open_ - {q.id}] or waiting[:1]
         yield from ready
-        done |= {question.id for question in ready}
-        waiting = [question for question in waiting if question.id not in done]
+        waiting = [question for question in waiting if question not in ready]
 
 
 def _judge(judged: _Judged, asked: Asked) -> _Judged:
@@ -84,8 +85,12 @@ def _judge(judged: _Judged, asked: Asked) -> _Judged:
         findings = (Finding(asked.question.id, "value", Outcome.UNSURE, points, points, message),)
     paid = any(f.aspect == "value" and f.outcome in {Outcome.WRONG, Outcome.PARTIAL} for f in findings)
     findings = tuple(_with_reading(finding, asked) for finding in findings)
-    charged = judged.charged | ({asked.question.id} if paid else set())
-    return _Judged((*judged.findings, *findings), frozenset(charged))
+    carried = any(finding.carried for finding in findings)
+    return _Judged(
+        (*judged.findings, *findings),
+        judged.charged | ({asked.question.id} if paid else set()),
+        judged.carried | ({asked.question.id} if carried else set()),
+    )
 
 
 def _with_reading(finding: Finding, asked: Asked) -> Finding:

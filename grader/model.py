@@ -216,6 +216,8 @@ class Asked:
         What was written, what is true, what was asked.
     charged : frozenset of str
         Questions whose value has already cost points; errors that come from them cost nothing again.
+    carried : frozenset of str
+        Questions whose value is right but for such an error.
     factors : tuple of Factor
         Common factors found in the velocities and angular velocities.
     questions : mapping of str to Question
@@ -231,3 +233,4 @@ class Asked:
     factors: tuple[Factor, ...] = ()
     questions: Mapping[str, Question] = field(default_factory=dict)
     table: FromTable = field(default_factory=FromTable)
+    carried: frozenset[str] = frozenset()

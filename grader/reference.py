@@ -1,13 +1,14 @@
 """What the reference method makes of a student's own tracking table: it tells an error of tracking from a later one.
 
-A table whose only fault is its scale or the direction of an axis is put right first: that slip is told by itself,
-and such a table still shows that the video was tracked.
+A table whose only fault is its scale, the direction of an axis or where it starts to count frames is put right first:
+that slip is told by itself, and such a table still shows that the video was tracked.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -15,7 +16,7 @@ import numpy as np
 from assignments.model import AnswerKey, Assignment
 from assignments.textbook import textbook_of
 from grader.own import OwnNumbers
-from grader.tracked import FromTable
+from grader.tracked import OUR_FAILURE, FromTable
 from grader.trajectory import TrajectoryFit, fit_trajectory
 from vml_course.errors import VmlError
 from vml_course.kinetics.impact_model import ImpactOptions
@@ -25,12 +26,9 @@ from vml_course.model.motion import Motion
 from vml_course.model.solution import ImpactSolution
 from vml_course.synth.scene import Scene, scene_class
 
-SLIP = 0.02
-"""From this relative error on, the scale of a table is a slip that is put right before it is solved."""
-
 
 def from_table(tracking: Mapping[str, FloatArray], key: AnswerKey, assignment: Assignment) -> FromTable:
-    """Solve the impact from a student's tracking table; never raises.
+    """Solve the impact from a student's tracking table; never raises, says `OUR_FAILURE` where we cannot.
 
     Parameters
     ----------
@@ -40,18 +38,23 @@ def from_table(tracking: Mapping[str, FloatArray], key: AnswerKey, assignment: A
     assignment : Assignment
     """
     try:
-        fit = fit_trajectory(tracking, key)
-        if fit is None:
-            return FromTable()
+        fit = fit_trajectory(tracking, key, is_far_tried=True)
+        return FromTable() if fit is None else _from_fit(fit, key, assignment)
+    except Exception:  # noqa: BLE001 - our own failure must never cost a student points: a person looks
+        return FromTable(why_not=OUR_FAILURE)
+
+
+def _from_fit(fit: TrajectoryFit, key: AnswerKey, assignment: Assignment) -> FromTable:
+    try:
         return _solved(fit, key, assignment)
     except VmlError as error:
         return FromTable(fit, why_not=str(error))
-    except Exception:  # noqa: BLE001 - our own failure must never cost a student points: a person looks
-        return FromTable(why_not="the grader could not solve the table")
+    except Exception:  # noqa: BLE001 - as above; what is known of the table is kept
+        return FromTable(fit, why_not=OUR_FAILURE)
 
 
 def _solved(fit: TrajectoryFit, key: AnswerKey, assignment: Assignment) -> FromTable:
-    is_corrected = fit.y_down or fit.x_left or abs(fit.scale_ratio - 1.0) > SLIP
+    is_corrected = fit.y_down or fit.x_left or fit.is_off_scale
     motion = _motion(fit, key, 1.0 if is_corrected else fit.scale_ratio)
     kind, model = scene_class(key.scene), impact_model(assignment.model)
     declared: dict[str, Any] = dict(kind().declared()) if issubclass(kind, Scene) else {}
@@ -65,7 +68,7 @@ def _solved(fit: TrajectoryFit, key: AnswerKey, assignment: Assignment) -> FromT
 
 def _motion(fit: TrajectoryFit, key: AnswerKey, ratio: float) -> Motion:
     """Return the table in metres, y up, one row a frame of the clip."""
-    frame = np.rint(fit.frame)
+    frame = np.rint(fit.clip_frame)
     kept = (frame >= key.frame[0]) & (frame <= key.frame[-1]) & (np.diff(frame, prepend=-np.inf) > 0)
     xy_m = fit.own_m[kept] * ratio
     return Motion(fit.points, frame[kept].astype(np.int64), fit.time_s[kept], xy_m, np.full(xy_m.shape[:2], math.nan))
@@ -81,7 +84,7 @@ def _by_question(
     sds = {id_: found.estimates[id_].sd for id_ in values}
     fields = {item.field: item.id for item in book.measured if item.id in values}
     known = {field: values[id_] for field, id_ in fields.items()}
-    way = OwnNumbers(book.record({**book.resting(key.values), **known}, key.given), {})
+    way = OwnNumbers({**book.resting(key.values), **known}, partial(book.record, given=key.given))
     field_sds = {field: sds[id_] for field, id_ in fields.items()}
     for item in book.concluded:
         if item.id in asked and item.id not in values and math.isfinite(way.value(item.formula)):

@@ -29,12 +29,12 @@ def smoothing_of(fit: TrajectoryFit, key: AnswerKey) -> int:
     """
     if "frame_before" not in key.truth:
         return 0
-    near = np.abs(fit.frame - key.truth["frame_before"] - 0.5) <= AROUND
+    in_clip = np.isfinite(fit.true_m).all(axis=(1, 2))  # a mean over what lies outside is none
+    near = np.abs(fit.clip_frame[in_clip] - key.truth["frame_before"] - 0.5) <= AROUND
     if near.sum() < AROUND:
         return 0
-    px_per_m = key.truth["px_per_m"]
-    rest_px = px_per_m * (fit.own_m - fit.true_m)
-    explained = {width: _explained(rest_px, px_per_m * fit.true_m, near, width) for width in WIDTHS}
+    own_px, true_px = (key.truth["px_per_m"] * positions[in_clip] for positions in (fit.own_m, fit.true_m))
+    explained = {width: _explained(own_px - true_px, true_px, near, width) for width in WIDTHS}
     best = max(explained, key=explained.__getitem__)
     return best if explained[best] >= EXPLAINED else 0
 
@@ -43,7 +43,7 @@ def _explained(rest_px: FloatArray, true_px: FloatArray, near: np.ndarray, width
     """Return which part of the remainder near the impact is a corner rounded off by a moving mean."""
     corner = (uniform_filter1d(true_px, width, axis=0, mode="nearest") - true_px)[near]
     rest = rest_px[near]
-    seen = np.isfinite(corner) & np.isfinite(rest)
+    seen = np.isfinite(rest)
     corner, rest = corner[seen], rest[seen]
     depth, whole = float((corner**2).sum()), float((rest**2).sum())
     if not seen.any() or whole == 0 or np.sqrt(depth / corner.size) < LEAST_PX:

@@ -11,11 +11,12 @@ from grader.model import Answer, Outcome
 from grader.read.locate import SEVERAL
 from vml_course.errors import AmbiguousNumberError, InputError, UncalibratedUnitError
 from vml_course.model.reading import UNITS, Reading, read_number, read_quantity
+from vml_course.model.typed_text import straighten
 
 _EXACT_DIGITS = 6  # a number with this many digits was computed, not rounded by a person
-
-
-_WRITTEN = re.compile(r"[\s(]*[-+−]?(?P<body>[\d., ]*\d)(?:[eE](?P<e>[-+]?\d{1,9}))?(?P<ten> ?[·*x×] ?10)?")
+_WRITTEN = re.compile(
+    r"[-+]? ?(?P<body>[0-9.,]+(?: [0-9]{3}(?![0-9])[0-9.,]*)*)(?:[eE](?P<e>[-+]?[0-9]{1,9}))?(?P<ten> ?[·*x] ?10)?"
+)
 
 
 @dataclass(frozen=True)
@@ -108,7 +109,7 @@ def _from_typed_text(answer: Answer, question: Question) -> Stated | Unstated:
 
 def _from_text(answer: Answer, text: str, question: Question) -> Stated | Unstated:
     try:
-        reading = read_quantity(text, question.dimension, question.unit, name=question.label)
+        reading = read_quantity(text, question.dimension, question.unit)
     except UncalibratedUnitError:
         return _in_pixels(text, question)
     except AmbiguousNumberError as error:
@@ -123,7 +124,7 @@ def _from_text(answer: Answer, text: str, question: Question) -> Stated | Unstat
 
 def _in_pixels(text: str, question: Question) -> Stated | Unstated:
     try:
-        value = read_quantity(text, f"pixel_{question.dimension}", name=question.label).value
+        value = read_quantity(text, f"pixel_{question.dimension}").value
     except InputError as error:  # the value is in metres and its uncertainty in pixels
         return _unreadable(error)
     return Stated(value, 0.0, text.strip(), unit_given=True, in_pixels=True)
@@ -136,7 +137,7 @@ def _unreadable(error: InputError) -> Unstated:
 
 def _half_unit(text: str, reading: Reading, question: Question) -> float:
     """Return half of the last written digit in SI; 0 for zero, and for a number that no person rounded."""
-    found = _WRITTEN.match(text)
+    found = _WRITTEN.match(straighten(text, question.id))
     if found is None or found["ten"] or reading.value == 0:
         return 0.0
     body = found["body"]

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from grader.model import Asked, Finding, Outcome
-from grader.tracked import LEAST_EACH_SIDE
+from grader.tracked import LEAST_EACH_SIDE, OUR_FAILURE
 
 SDS = 3.0
 METHOD = 2.0
@@ -52,12 +52,13 @@ def _held(asked: Asked, finding: Finding, half_width: float) -> Finding:
 
 def _why_unsupported(asked: Asked, value: float, half_width: float) -> str:
     table, found = asked.table, asked.table.values.get(asked.question.id)
-    if table.fit is None:
-        if asked.submission.tracking:
-            return "your tracking table cannot be compared with your video"
+    if table.why_not == OUR_FAILURE:
+        return OUR_FAILURE
+    if table.fit is None and not asked.submission.tracking:
         return "there is no tracking table that it could come from"
-    if not table.is_near:
-        return "your tracking table does not follow your video"
+    if table.fit is None or not table.is_near:
+        how = "cannot be compared with" if table.fit is None else "does not follow"
+        return f"your tracking table {how} your video"
     if min(table.rows(asked.key.truth["t_impact_s"])) < LEAST_EACH_SIDE:
         return "your tracking table does not show the impact"
     spread = METHOD * SDS * table.sds.get(asked.question.id, 0.0)

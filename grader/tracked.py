@@ -15,6 +15,9 @@ FARTHEST_PX = 4.0
 """A table that lies farther from the true path than this supports nothing."""
 
 
+OUR_FAILURE = "the grader could not work with your tracking table"
+
+
 @dataclass(frozen=True, eq=False)
 class FromTable:
     """What follows from a tracking table.
@@ -50,5 +53,5 @@ class FromTable:
         if self.fit is None:
             return 0, 0
         seen = np.isfinite(self.fit.own_m).all(axis=(1, 2))
-        before = self.fit.time_s < impact_s
+        before = self.fit.clip_time_s < impact_s
         return int((seen & before).sum()), int((seen & ~before).sum())

@@ -17,6 +17,8 @@ from vml_course.model.arrays import FloatArray
 
 LEAST_ROWS = 10
 LARGEST_LAG = 12.0  # frames
+SCALE_SLIP = 0.02  # relative error of a scale that is one
+CLEAR_SDS = 5.0  # a delay is one when the fit without it is so much worse
 _FINE = 0.05  # frames
 HOPELESS, CLEARLY = 0.05, 0.2
 """Points are tried the other way round when the rest is more than this part of their paths, and that must be so much
@@ -37,8 +39,8 @@ class TrajectoryFit:
         Root mean square distance in the picture, after scale, shift and lag.
     scale_ratio : float
         The table's metres over true metres: 1 when calibrated, `px_per_m` when still in pixels.
-    lag_frames : float
-        By how many frames the table is late.
+    lag_frames, lag_s : float
+        By how many frames the table is late, and by how many seconds.
     y_down, x_left : bool
         Whether y was left pointing down, or x points to the left.
     swapped : tuple of str
@@ -58,6 +60,22 @@ class TrajectoryFit:
     true_m: FloatArray
     x_left: bool = False
     swapped: tuple[str, ...] = ()
+    lag_s: float = 0.0
+
+    @property
+    def is_off_scale(self) -> bool:
+        """Whether the scale is a slip, no error of measurement."""
+        return abs(self.scale_ratio - 1.0) > SCALE_SLIP
+
+    @property
+    def clip_frame(self) -> FloatArray:
+        """The frames by the count of the clip itself, shape (n,)."""
+        return self.frame - self.lag_frames
+
+    @property
+    def clip_time_s(self) -> FloatArray:
+        """The times since the clip's first frame, shape (n,)."""
+        return self.time_s - self.lag_s
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,16 +87,23 @@ class _Trial:
     rms: float
 
 
+_FINER = ((0.25, 1.0), (_FINE, 0.25))
+
+
 @dataclass(frozen=True)
 class _Search:
-    """Where the delay of a table is looked for: around `start`, in steps over a reach, ever finer; frames."""
+    """Where the delay of a table is looked for: around `start`, in steps over a reach, ever finer; frames.
+
+    `least` rows must lie within the clip.
+    """
 
     start: float = 0.0
-    steps: tuple[tuple[float, float], ...] = ((1.0, LARGEST_LAG), (0.25, 1.0), (_FINE, 0.25))
+    steps: tuple[tuple[float, float], ...] = ((1.0, LARGEST_LAG), *_FINER)
+    least: float = LEAST_ROWS
 
 
 def fit_trajectory(
-    tracking: Mapping[str, FloatArray], key: AnswerKey, lag_frames: float | None = None
+    tracking: Mapping[str, FloatArray], key: AnswerKey, lag_frames: float | None = None, *, is_far_tried: bool = False
 ) -> TrajectoryFit | None:
     """Fit a tracking table to the truth; None when the table has too little to compare.
 
@@ -89,18 +114,26 @@ def fit_trajectory(
     key : AnswerKey
     lag_frames : float, optional
         The delay, where an earlier fit has found it.
+    is_far_tried : bool
+        Whether delays up to the length of the clip are tried where smaller ones do not fit, as of a table that counts
+        frames from the impact or from another film.
     """
     px_per_m = key.truth["px_per_m"]
     frame, points, own = _table(tracking, key)
     true_m = key.xy_px * np.array([1.0, -1.0]) / px_per_m
-    if frame is None or not points or np.isfinite(own[..., 0]).sum() < LEAST_ROWS:
+    if _rows(own).sum() < LEAST_ROWS:
         return None
     truth = true_m[:, [key.points.index(point) for point in points]]
     true_frame = key.frame.astype(float)
     search = _Search() if lag_frames is None else _Search(lag_frames, ((1.0, 0.0),))
     best, order = _best_order(frame, own, true_frame, truth, search)
+    if is_far_tried and _is_hopeless(best, truth):
+        far = _best(frame, own, true_frame, truth, _far(frame, own, true_frame))
+        if far is not None and (best is None or far.rms < CLEARLY * best.rms):
+            best, order = far, list(range(len(points)))
     if best is None:
         return None
+    best = _not_late(best, own[:, order], _shifted(true_frame, truth, frame)) if lag_frames is None else best
     return TrajectoryFit(
         points=points,
         frame=frame,
@@ -113,6 +146,7 @@ def fit_trajectory(
         true_m=_shifted(true_frame, truth, frame - best.lag),
         x_left=best.signs[0] < 0,
         swapped=tuple(point for k, point in enumerate(points) if order[k] != k),
+        lag_s=best.lag / key.truth["fps"],
     )
 
 
@@ -122,8 +156,7 @@ def _best_order(
     """Fit the points as they are named; where that is hopeless, with two of them exchanged."""
     usual = list(range(own.shape[1]))
     best, order = _best(frame, own, true_frame, truth, search), usual
-    spread = float(np.nanstd(truth, axis=0).max())
-    if best is not None and best.rms <= HOPELESS * spread:
+    if not _is_hopeless(best, truth):
         return best, usual
     for one, other in itertools.combinations(usual, 2):
         exchanged = [{one: other, other: one}.get(k, k) for k in usual]
@@ -133,13 +166,39 @@ def _best_order(
     return best, order
 
 
-def _table(tracking: Mapping[str, FloatArray], key: AnswerKey) -> tuple[FloatArray | None, tuple[str, ...], FloatArray]:
+def _is_hopeless(best: _Trial | None, truth: FloatArray) -> bool:
+    return best is None or best.rms > HOPELESS * float(np.nanstd(truth, axis=0).max())
+
+
+def _far(frame: FloatArray, own: FloatArray, true_frame: FloatArray) -> _Search:
+    """Search all delays at which half of the table lies within the clip: its middle row does so, too."""
+    used = frame[_rows(own)]
+    centre = np.round(np.median(used) - np.median(true_frame))
+    return _Search(float(centre), ((1.0, true_frame.size // 2), *_FINER), max(LEAST_ROWS, used.size / 2))
+
+
+def _not_late(best: _Trial, own: FloatArray, at: FloatArray) -> _Trial:
+    """Return the fit without a delay, where noise could feign the one that was found."""
+    usual = _trial(0.0, best.signs, own, at, LEAST_ROWS)
+    if usual is None:
+        return best
+    numbers = 2 * int(np.isfinite(own).all(axis=2).sum())
+    gain = numbers * (usual.rms**2 - best.rms**2)
+    return usual if gain <= CLEAR_SDS**2 * best.rms**2 else best
+
+
+def _rows(own: FloatArray) -> np.ndarray:
+    """Tell which rows hold at least one whole point."""
+    return np.asarray(np.any(np.isfinite(own).all(axis=2), axis=1))
+
+
+def _table(tracking: Mapping[str, FloatArray], key: AnswerKey) -> tuple[FloatArray, tuple[str, ...], FloatArray]:
     points = tuple(p for p in key.points if {f"{p}_x_m", f"{p}_y_m"} <= tracking.keys())
     frame = tracking.get("frame")
     if frame is None and "t_s" in tracking:
         frame = tracking["t_s"] * key.truth["fps"]
     if frame is None or not points:
-        return None, (), np.empty((0, 0, 2))
+        return np.empty(0), (), np.empty((0, 0, 2))
     own = np.stack([np.stack([tracking[f"{p}_x_m"], tracking[f"{p}_y_m"]], axis=1) for p in points], axis=1)
     kept = (
         np.isfinite(frame) & (np.abs(np.nan_to_num(frame)) < 1e7) & (np.abs(np.nan_to_num(own)) < 1e9).all(axis=(1, 2))
@@ -157,7 +216,7 @@ def _best(
         centre, signs = (best.lag, (best.signs,)) if best else (search.start, _SIGNS)
         for lag in np.arange(centre - reach, centre + reach + step / 2, step):
             at = _shifted(true_frame, truth, frame - lag)
-            for trial in (_trial(float(lag), directions, own, at) for directions in signs):
+            for trial in (_trial(float(lag), directions, own, at, search.least) for directions in signs):
                 if trial is not None and (best is None or trial.rms < best.rms):
                     best = trial
     return best
@@ -172,10 +231,10 @@ def _shifted(true_frame: FloatArray, truth: FloatArray, at: FloatArray) -> Float
     return result
 
 
-def _trial(lag: float, signs: tuple[float, float], own: FloatArray, truth: FloatArray) -> _Trial | None:
+def _trial(lag: float, signs: tuple[float, float], own: FloatArray, truth: FloatArray, least: float) -> _Trial | None:
     """Fit one scale and one shift by least squares: truth = scale * own + shift."""
     seen = np.isfinite(own).all(axis=2) & np.isfinite(truth).all(axis=2)
-    if seen.sum() < LEAST_ROWS:
+    if np.any(seen, axis=1).sum() < least:
         return None
     a = own[seen] * np.array(signs)
     b = truth[seen]

@@ -19,7 +19,10 @@ from assignments.theory import Concluded, Measured, Met, Mistake, Textbook, by_c
 
 @dataclass(frozen=True)
 class PuckNumbers:
-    """Velocities in m/s of puck 1 (a) and puck 2 (b) before and after; x along the way of puck 1, y to its left."""
+    """Velocities in m/s of puck 1 (a) and puck 2 (b) before and after; x along the way of puck 1, y to its left.
+
+    `own_phi` is the angle that a student found, where one was written.
+    """
 
     a1x: float = nan
     a1y: float = nan
@@ -31,6 +34,7 @@ class PuckNumbers:
     b2y: float = nan
     m: float = nan
     S: float = nan
+    own_phi: float = nan
 
     @property
     def phi(self) -> float:
@@ -50,6 +54,13 @@ class PuckNumbers:
     def e(self) -> float:
         """Coefficient of restitution."""
         return self.along(self.b2x - self.a2x, self.b2y - self.a2y) / self.approach
+
+    @property
+    def e_by_own_phi(self) -> float:
+        """Coefficient of restitution along the direction that was found before."""
+        phi = self.phi if math.isnan(self.own_phi) else self.own_phi
+        separation = (self.b2x - self.a2x) * math.cos(phi) + (self.b2y - self.a2y) * math.sin(phi)
+        return separation / ((self.a1x - self.b1x) * math.cos(phi) + (self.a1y - self.b1y) * math.sin(phi))
 
     @property
     def gained(self) -> float:
@@ -192,6 +203,7 @@ TEXTBOOK = Textbook(
             "(({v_b2x} − {v_a2x}) cos φ + ({v_b2y} − {v_a2y}) sin φ) / ({v_a1x} cos φ)",
             lambda n: n.e,
             unknown("e"),
+            also=(lambda n: n.e_by_own_phi,),
         ),
         Concluded(
             "M",

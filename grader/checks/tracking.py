@@ -11,12 +11,16 @@ from grader.model import Asked, Finding, Outcome
 from grader.read.flags import Flag
 from grader.read.table import other_points
 from grader.smoothed import smoothing_of
-from grader.trajectory import TrajectoryFit
+from grader.tracked import OUR_FAILURE
+from grader.trajectory import LEAST_ROWS, TrajectoryFit
 
 GOOD_PX = 1.0  # what a careful hand reaches; correlation tracking is twenty times better
 POOR_PX = 4.0
 _RATE_APART = 0.02
-_NO_TABLE = "There is no tracking table with ten rows or more to compare. The sheet Tracking says how to paste yours."
+_NO_TABLE = (
+    f"There is no tracking table with {LEAST_ROWS} rows or more of your video to compare. "
+    "The sheet Tracking says how to paste yours."
+)
 _MOST_NAMES = 5
 _OF_CELLS = FOR_PERSON_OF_TABLE.keys() - {Flag.UNNAMED_POINTS}  # of the names more is said
 
@@ -28,19 +32,19 @@ def tracking(asked: Asked) -> tuple[Finding, ...]:
     """
     fit = asked.table.fit
     points, at = asked.question.points, asked.question.id
+    if asked.table.why_not == OUR_FAILURE and fit is None:
+        return (Finding(at, "table", Outcome.UNSURE, points, points, f"Sorry, {OUR_FAILURE}; a person will."),)
     names = _names(asked)
     if fit is None:
         message = " ".join([*(names or [_NO_TABLE]), *_cells(asked)])
         unsure = points or asked.submission.tracking
         return (Finding(at, "table", Outcome.UNSURE if unsure else Outcome.PARTIAL, points, points, message),)
     slips = list(_slips(fit, asked))
-    outcome = Outcome.UNSURE if names else _outcome(fit, is_clean=not slips)
+    outcome = Outcome.UNSURE if names else _outcome(fit.rms_px, is_clean=not slips)
     share = {Outcome.RIGHT: 1.0, Outcome.UNSURE: 1.0, Outcome.PARTIAL: 0.5}.get(outcome, 0.0)
     numbers = {"rms_px": fit.rms_px, "scale_ratio": fit.scale_ratio, "lag_frames": fit.lag_frames}
     message = " ".join(
-        [f"Your points lie {fit.rms_px:.2g} px (root mean square) from the true ones."]
-        + [words for _, words in slips]
-        + names
+        [_distance(fit.rms_px, is_clean=not slips), *(words for _, words in slips), *names]
         + ([] if outcome is Outcome.RIGHT else _cells(asked))
     )
     code = slips[0][0] if len(slips) == 1 else ""
@@ -65,27 +69,39 @@ def _cells(asked: Asked) -> list[str]:
     return [FOR_STUDENT[flag] for flag in asked.submission.flags if flag in _OF_CELLS]
 
 
-def _outcome(fit: TrajectoryFit, *, is_clean: bool) -> Outcome:
-    if fit.rms_px > POOR_PX:
+def _distance(rms_px: float, *, is_clean: bool) -> str:
+    once = "" if is_clean else ", once the following is put right"
+    words = f"Your points lie {rms_px:.2g} px (root mean square) from the true ones{once}."
+    return words if rms_px <= GOOD_PX else f"{words} A careful hand stays within {GOOD_PX:g} px."
+
+
+def _outcome(rms_px: float, *, is_clean: bool) -> Outcome:
+    if rms_px > POOR_PX:
         return Outcome.WRONG
-    return Outcome.RIGHT if fit.rms_px <= GOOD_PX and is_clean else Outcome.PARTIAL
+    return Outcome.RIGHT if rms_px <= GOOD_PX and is_clean else Outcome.PARTIAL
 
 
 def _slips(fit: TrajectoryFit, asked: Asked) -> Iterator[tuple[str, str]]:
+    """Yield code and sentence of each fault; what was fitted is told only where the table then fits."""
+    if fit.rms_px <= POOR_PX:
+        yield from _fitted(fit, asked)
+    yield from _clock(asked)
+    if smoothing_of(fit, asked.key):
+        yield "K14", "Its paths are rounded off at the impact: it looks smoothed across it. Fit each side by itself."
+
+
+def _fitted(fit: TrajectoryFit, asked: Asked) -> Iterator[tuple[str, str]]:
     if fit.swapped:
         yield "K13", f"The columns of {' and '.join(fit.swapped)} look exchanged."
     if fit.y_down:
         yield "K10", "The y axis points down in your table; it should point up."
     if fit.x_left:
         yield "K15", "The x axis points to the left in your table; it should point to the right."
-    if abs(fit.scale_ratio - 1) > 0.02:
+    if fit.is_off_scale:
         code = _scale_slip(fit.scale_ratio, asked.key.truth["px_per_m"])
         yield code, "Its lengths are not the true ones: check the calibration."
     if abs(fit.lag_frames) > 0.3:
         yield "K11", f"It is {abs(fit.lag_frames):.1f} frames {'late' if fit.lag_frames > 0 else 'early'}."
-    yield from _clock(asked)
-    if smoothing_of(fit, asked.key):
-        yield "K14", "Its paths are rounded off at the impact: it looks smoothed across it. Fit each side by itself."
 
 
 def _scale_slip(ratio: float, px_per_m: float) -> str:
@@ -103,8 +119,10 @@ def _clock(asked: Asked) -> Iterator[tuple[str, str]]:
     if not {"frame", "t_s"} <= columns.keys():
         return
     steps, seconds = np.diff(columns["frame"]), np.diff(columns["t_s"])
-    usable = np.isfinite(steps) & np.isfinite(seconds) & (steps > 0) & (seconds > 0)
-    rate = float(np.median(steps[usable] / seconds[usable])) if usable.any() else fps
+    usable = (steps > 0) & (seconds > 0)  # which no NaN is
+    if not usable.any():
+        return
+    rate = float(np.median(steps[usable] / seconds[usable]))
     if abs(rate - 1) <= _RATE_APART:
         yield "K2b", "Its times are frame numbers; time is frame number divided by frame rate."
     elif abs(rate / fps - 1) > _RATE_APART:

@@ -67,7 +67,7 @@ def test_where_the_table_is_not_right_its_cells_are_told_to_both(desk, flag):
     short = {name: column[:3] for name, column in desk.table.items()}
     result = graded(desk, (flag,), short)
     assert FOR_PERSON_OF_TABLE[flag] in result.reasons
-    assert "ten rows" in finding(result).message
+    assert "10 rows" in finding(result).message
     if flag is not Flag.UNNAMED_POINTS:  # names are named one by one
         assert FOR_STUDENT[flag] in finding(result).message
 
