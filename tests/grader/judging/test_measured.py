@@ -175,7 +175,7 @@ def test_the_words_of_a_floor_give_no_truth_away(kick, truth, floor):
 @pytest.mark.parametrize("truth", [math.nan, math.inf])
 def test_a_truth_that_nobody_knows_is_no_students_fault(plain, truth):
     asked = plain.with_key(values={"v_b2": truth}).asked("v_b2", {"v_b2": 4.0}, factors=())
-    with pytest.raises(InputError, match="answer key: expected a true value of v_b2"):
+    with pytest.raises(InputError, match=f"answer key: expected a true value of v_b2, got {truth}"):
         truth_of(asked)
     with pytest.raises(InputError, match="v_b2"):
         judge_measured(replace(asked, key=replace(asked.key, values={})))
@@ -198,6 +198,7 @@ def test_remarks_follow_the_verdict(plain):
     assert finding.message.startswith("Right: within 25 % of the true value. Your ± is too small")
     assert finding.numbers["uncertainty"] == 0.1
     assert finding.numbers["z"] == pytest.approx(5.0)
+    assert finding.numbers.keys() == {"value", "truth", "tolerance", "uncertainty", "z"}
     assert finding.outcome is Outcome.RIGHT
 
 

@@ -363,6 +363,8 @@ def test_digits_are_remarked_where_they_are_too_few_or_say_too_much(kick, half_u
 
 def test_without_a_known_sd_no_digit_is_too_much(kick):
     assert remarks(kick, 0.75, 1e-12, sd=0.0) == ""
+    stated = Stated(0.75, 1e-12, "", unit_given=True)
+    assert list(remarks_on_number(stated, kick.question("e"), kick.key, 0.014)) == []
 
 
 @pytest.mark.parametrize(
