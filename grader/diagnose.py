@@ -185,5 +185,9 @@ def _distances(value: float, numbers: Numbers, mistakes: Iterable[Mistake]) -> I
 
 
 def needs_diagnosis(outcomes: Iterable[tuple[str, Outcome]]) -> bool:
-    """Tell whether an answer's formula or value was not found right."""
-    return any(outcome is not Outcome.RIGHT for aspect, outcome in outcomes if aspect in {"formula", "value"})
+    """Tell whether there is something to explain: a right value is explained by the truth, whatever else would fit."""
+    found = dict(outcomes)
+    is_right = found.get("value") is Outcome.RIGHT
+    return not is_right and any(
+        found.get(aspect, Outcome.RIGHT) is not Outcome.RIGHT for aspect in ("formula", "value")
+    )

@@ -139,12 +139,26 @@ def judge_value(asked: Asked, stated: Stated, points: float, spread: float) -> F
         points=verdict.share * points,
         out_of=points,
         message=" ".join(
-            [verdict.message, *remarks_on_number(stated, asked.question, asked.key, tolerance.half_width)]
+            [
+                verdict.message,
+                *remarks_on_number(
+                    stated,
+                    asked.question,
+                    asked.key,
+                    tolerance.half_width,
+                    is_near=_is_near(stated.value, truth, tolerance),
+                ),
+            ]
         ),
         numbers=numbers,
         mistake=verdict.mistake,
         carried=verdict.carried,
     )
+
+
+def _is_near(value: float, truth: float, tolerance: Tolerance) -> bool:
+    """Tell whether a value is of the size asked for, by a factor of two."""
+    return abs(abs(value) - abs(truth)) <= max(abs(truth) / 2, PARTIAL_REACH * tolerance.half_width)
 
 
 def _verdicts(asked: Asked, value: float, tolerance: Tolerance, spread: float) -> Iterator[_Verdict]:

@@ -13,7 +13,9 @@ FAR_SDS = 3.0
 TOO_WIDE = 5.0  # tolerances
 
 
-def remarks_on_number(stated: Stated, question: Question, key: AnswerKey, half_width: float) -> Iterator[str]:
+def remarks_on_number(
+    stated: Stated, question: Question, key: AnswerKey, half_width: float, *, is_near: bool = True
+) -> Iterator[str]:
     """Yield what a number's digits and its own uncertainty say, one sentence each.
 
     Parameters
@@ -23,9 +25,13 @@ def remarks_on_number(stated: Stated, question: Question, key: AnswerKey, half_w
     key : AnswerKey
     half_width : float
         Of full credit, SI units.
+    is_near : bool
+        Whether the value is of the size asked for: digits of pixels or of another clock say nothing.
     """
     sd = key.expected_sd.get(question.id, 0.0)
-    if stated.half_unit > half_width:
+    if not is_near:
+        pass
+    elif stated.half_unit > half_width:
         yield "It is rounded too coarsely for the tolerance: give one digit more."
     elif 0 < 2 * TOO_FINE * stated.half_unit < sd:
         digits = significant_digits(stated.value, sd)

@@ -273,13 +273,16 @@ def test_rates_of_nothing_are_no_failure() -> None:
     ("outcomes", "needed"),
     [
         ([("formula", Outcome.RIGHT), ("value", Outcome.RIGHT), ("unit", Outcome.WRONG)], False),
-        ([("formula", Outcome.WRONG), ("value", Outcome.RIGHT)], True),
+        ([("formula", Outcome.WRONG), ("value", Outcome.RIGHT)], False),
+        ([("formula", Outcome.RIGHT), ("value", Outcome.UNSURE)], True),
         ([("formula", Outcome.RIGHT), ("value", Outcome.PARTIAL)], True),
         ([("formula", Outcome.UNSURE)], True),
         ([], False),
     ],
 )
-def test_only_a_formula_or_a_value_that_is_not_right_asks_for_a_name(outcomes, needed: bool) -> None:
+def test_a_formula_or_a_value_that_is_not_right_asks_for_a_name_unless_the_truth_explains_the_value(
+    outcomes, needed: bool
+) -> None:
     assert needs_diagnosis(outcomes) is needed
 
 

@@ -397,3 +397,9 @@ def test_a_value_deserves_digits_down_to_its_sd():
     assert significant_digits(-0.7333, 0.02) == 2
     assert significant_digits(100.0, 1.0) == 3
     assert significant_digits(24.0, 3000.0) == 1
+
+
+def test_digits_of_a_value_of_another_size_are_not_talked_of(kick):
+    coarse = Stated(0.7, 0.05, "", unit_given=True)
+    assert "rounded too coarsely" in " ".join(remarks_on_number(coarse, kick.question("e"), kick.key, 0.014))
+    assert list(remarks_on_number(coarse, kick.question("e"), kick.key, 0.014, is_near=False)) == []
