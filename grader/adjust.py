@@ -43,19 +43,29 @@ class Standing:
 
 
 def decided(grade: Grade, adjustments: Iterable[Adjustment]) -> Grade:
-    """Return a grade whose questions say what a person decided, in place of what was found; a pure function."""
+    """Return a grade whose questions say what a person decided, in place of what was found; a pure function.
+
+    The points of a question go to its aspects in proportion, so that every level keeps what it is worth.
+    """
     newest = {item.question: item for item in adjustments if item.question != TOTAL}
-    findings: list[Finding] = []
-    for finding in grade.findings:
-        item = newest.get(finding.question_id)
-        if item is None:
-            findings.append(finding)
-        elif not any(known.question_id == finding.question_id for known in findings):
-            out_of = sum(one.out_of for one in grade.of(finding.question_id))
-            outcome, message = _outcome(item.points, out_of), f"A person decided: {item.reason}"
-            findings.append(Finding(finding.question_id, "value", outcome, item.points, out_of, message))
+    findings = tuple(
+        _decided(finding, newest[finding.question_id], grade.of(finding.question_id))
+        if finding.question_id in newest
+        else finding
+        for finding in grade.findings
+    )
     still = tuple(d for d in grade.diagnosis if not set(d.ids or (d.subject,)) <= newest.keys())
-    return replace(grade, findings=tuple(findings), diagnosis=still)
+    return replace(
+        grade, findings=findings, diagnosis=still, decided=frozenset(newest) & {f.question_id for f in findings}
+    )
+
+
+def _decided(finding: Finding, item: Adjustment, aspects: tuple[Finding, ...]) -> Finding:
+    """Return what a person decided of one aspect; the first one says why."""
+    out_of = sum(one.out_of for one in aspects)
+    points = item.points * (finding.out_of / out_of if out_of else 0.0)
+    message = f"A person decided: {item.reason}" if finding is aspects[0] else ""
+    return Finding(finding.question_id, finding.aspect, _outcome(item.points, out_of), points, finding.out_of, message)
 
 
 def check_adjustment(assignment: Assignment, adjustment: Adjustment) -> None:

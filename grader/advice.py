@@ -58,7 +58,8 @@ def next_steps(grade: Grade, assignment: Assignment, *, may_hand_in: bool, show_
     """
     steps = [_EMPTY.format(ANSWERS)] if grade.status == "empty" else [*_repairs(grade, assignment)]
     if not steps:
-        return (Markup("Everything that was judged is right: there is nothing to do."),)
+        settled = [finding.outcome for finding in grade.findings if finding.question_id in grade.decided]
+        return (_DECIDED if set(settled) & _LOST else _RIGHT,)
     if may_hand_in:
         steps.append(Markup("Save the workbook and hand it in again."))
     elif show_truth:
@@ -66,11 +67,14 @@ def next_steps(grade: Grade, assignment: Assignment, *, may_hand_in: bool, show_
     return tuple(steps)
 
 
+_RIGHT = Markup("Everything that was judged is right: there is nothing to do.")
+_DECIDED = Markup("A person has looked at what was not right; their words stand below.")
 _EMPTY = Markup("Type your values and their units into the coloured cells of the sheet {}.")
 
 
 def _repairs(grade: Grade, assignment: Assignment) -> Iterator[Markup]:
-    lost = [_Lost(question, grade.of(question.id)) for question in assignment.questions]
+    asked = [question for question in assignment.questions if question.id not in grade.decided]
+    lost = [_Lost(question, grade.of(question.id)) for question in asked]
     told = {id_ for diagnosis in grade.diagnosis for id_ in diagnosis.ids or (diagnosis.subject,)}
     if grade.diagnosis:
         cells = _symbols(lost, lambda item: item.question.id in told) or TRACKING

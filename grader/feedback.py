@@ -176,7 +176,7 @@ def line_of(report: Report, question: Question) -> Line:
         band=band,
         points=earned_text(findings),
         verdict=verdict(findings),
-        findings=tuple(_finding(finding) for finding in findings),
+        findings=tuple(_finding(finding) for finding in findings if finding.message),
     )
 
 

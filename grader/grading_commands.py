@@ -166,13 +166,14 @@ def release(
 ) -> None:
     """Fix what counts now, for students and platform: exports are made from the newest release.
 
-    Says first how it differs from the release before.
+    Says how it differs from the release before, and writes every page anew.
 
     Example: vml release soccer-kick --course dynamics-2026
     """
-    from grader.releasing import release_grades
+    from grader.usecases import release as release_now
 
-    changes = release_grades(the_course(course), assignment, who=getpass.getuser(), dry_run=dry_run)
+    with resumable(), progress("writing pages") as show:
+        changes = release_now(the_course(course), assignment, who=getpass.getuser(), dry_run=dry_run, progress=show)
     if as_json:
         print_json([asdict(change) for change in changes])
         return

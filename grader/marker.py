@@ -5,7 +5,7 @@ from __future__ import annotations
 import datetime as dt
 import os
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -177,18 +177,31 @@ class Marker:
             write_class_page(self._course, self._book, self._load(assignment_id), unreadable)
         return result
 
-    def rewrite_page(self, receipt: Receipt, attempt: int) -> None:
-        """Write a student's page anew, as after a person's decision; nothing is recorded."""
-        order = self._order(receipt)
-        known = self._with_key(order, *self._all(understand, [order]))
-        if isinstance(known, _Known):
-            (marked,) = self._all(mark, [known.order])
-            if isinstance(marked, Marked):
-                key, assignment = known.order.key, known.order.assignment
-                terms = self._course.calendar.terms_of(assignment.id, key.student)
-                row = self._book.row(assignment.id, key.student)
-                report = Report(assignment, marked.submission, key, marked.grade, attempt, row=row, terms=terms)
-                self._pages(report, row, known.book)
+    def rewrite_pages(self, rows: Sequence[Row], progress: Progress) -> None:
+        """Write students' pages anew, as after a decision or when the time is over; nothing is recorded."""
+        size = max(SMALLEST_BATCH, 2 * self._crew.most_under_way)
+        for start in range(0, len(rows), size):
+            for row, one, result in self._judged(self._receipts_of(rows[start : start + size])):
+                self._pages(self._report(one, result, row.attempt, row), row, one.book)
+            progress(min(start + size, len(rows)), len(rows))
+
+    def _receipts_of(self, rows: Sequence[Row]) -> Iterator[tuple[Row, ReadOrder]]:
+        """Yield what each student's counting attempt was read from; bytes that are gone leave the old page."""
+        for row in rows:
+            receipt = self._book.receipt_of(row.assignment_id, row.student.pid, row.attempt)
+            order = self._order_or_reason(receipt) if receipt is not None else None
+            if isinstance(order, ReadOrder):
+                yield row, order
+
+    def _judged(self, wanted: Iterable[tuple[Row, ReadOrder]]) -> Iterator[tuple[Row, _Known, Marked]]:
+        wanted = list(wanted)
+        read = self._all(understand, [order for _, order in wanted])
+        known = [(row, self._with_key(order, one)) for (row, order), one in zip(wanted, read, strict=True)]
+        usable = [(row, one) for row, one in known if isinstance(one, _Known)]
+        marked = self._all(mark, [one.order for _, one in usable])
+        for (row, one), result in zip(usable, marked, strict=True):
+            if isinstance(result, Marked):
+                yield row, one, result
 
     def _keep(self, file: Path, whose: Whose | None) -> Receipt | Graded:
         try:
@@ -274,8 +287,13 @@ class Marker:
             submission, marked.grade, received_at=received, receipt=receipt.id, took_ms=marked.took_ms
         )
         row = self._book.row(assignment.id, key.student)
-        report = Report(assignment, submission, key, marked.grade, attempt, row=row, terms=terms)
-        return _graded(receipt.arrived.name, marked.grade, key, row, attempt, self._pages(report, row, known.book))
+        page = self._pages(self._report(known, marked, attempt, row), row, known.book)
+        return _graded(receipt.arrived.name, marked.grade, key, row, attempt, page)
+
+    def _report(self, known: _Known, marked: Marked, attempt: int, row: Row) -> Report:
+        key, assignment = known.order.key, known.order.assignment
+        terms = self._course.calendar.terms_of(assignment.id, key.student)
+        return Report(assignment, marked.submission, key, marked.grade, attempt, row=row, terms=terms)
 
     def _refuse(self, receipt: Receipt, reason: str) -> Graded:
         arrived = receipt.arrived

@@ -174,7 +174,8 @@ class Diagnosis:
 class Grade:
     """The result of one submission; a pure function of submission, key and assignment.
 
-    `status` is `ok`, `review` when a person should look, or `empty` when no question was answered.
+    `status` is `ok`, `review` when a person should look, or `empty` when no question was answered; `decided` holds the
+    questions that a person decided about.
     """
 
     findings: tuple[Finding, ...]
@@ -183,6 +184,7 @@ class Grade:
     status: str
     diagnosis: tuple[Diagnosis, ...] = ()
     reasons: tuple[str, ...] = ()
+    decided: frozenset[str] = frozenset()
 
     @property
     def is_provisional(self) -> bool:

@@ -1,7 +1,8 @@
-"""What the grader does for people beside grading: settle a review, give more time."""
+"""What the grader does for people beside grading: settle a review, give more time, release."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import asdict, replace
 
 from assignments.course import Course, add_extension
@@ -10,7 +11,8 @@ from assignments.terms import Extension
 from assignments.words import symbol_text
 from grader.adjust import Adjustment
 from grader.gradebook import Gradebook, Row
-from grader.marker import USUAL, Marker, write_class_page
+from grader.marker import Marker, Progress, Wanted, silent, write_class_page
+from grader.releasing import Change, release_grades
 
 
 def set_points(course: Course, assignment_id: str, pid: str, adjustment: Adjustment) -> Row:
@@ -26,11 +28,33 @@ def set_points(course: Course, assignment_id: str, pid: str, adjustment: Adjustm
     with Gradebook.open(course) as gradebook:
         row = gradebook.adjust(assignment, pid, adjustment)
         write_class_page(course, gradebook, assignment)
-        receipt = gradebook.receipt_of(assignment_id, pid, row.attempt)
-        if receipt is not None:
-            with USUAL.crew_for(1) as crew:
-                Marker(course, gradebook, crew, USUAL).rewrite_page(receipt, row.attempt)
+        _rewrite_pages(course, gradebook, [row])
     return row
+
+
+def _rewrite_pages(course: Course, gradebook: Gradebook, rows: Sequence[Row], progress: Progress = silent) -> None:
+    wanted = Wanted(workers=0)
+    with wanted.crew_for(len(rows)) as crew:
+        Marker(course, gradebook, crew, wanted).rewrite_pages(rows, progress)
+
+
+def release(
+    course: Course, assignment_id: str, *, who: str, dry_run: bool = False, progress: Progress = silent
+) -> tuple[Change, ...]:
+    """Release what counts now, and write every page anew: what students read is what was released.
+
+    True values appear on the pages when nobody can hand in any more.
+
+    Raises
+    ------
+    UnknownNameError, NothingGradedError
+    """
+    changes = release_grades(course, assignment_id, who=who, dry_run=dry_run)
+    if not dry_run:
+        with Gradebook.open(course) as gradebook:
+            _rewrite_pages(course, gradebook, gradebook.rows(assignment_id), progress)
+            write_class_page(course, gradebook, load_assignment(assignment_id, course.assignments))
+    return changes
 
 
 def extend_student(course: Course, given: Extension) -> list[str]:
@@ -44,6 +68,9 @@ def extend_student(course: Course, given: Extension) -> list[str]:
         gradebook.student(given.student)
         extended = add_extension(course, given)
         gradebook.note("extended", given.student, asdict(given))
+    with Gradebook.open(extended) as gradebook:
+        rows = [row for row in gradebook.rows(given.assignment or None) if row.student.pid == given.student]
+        _rewrite_pages(extended, gradebook, rows)
     calendar = extended.calendar
     named = [given.assignment] if given.assignment else sorted(calendar.terms or {})
     return [

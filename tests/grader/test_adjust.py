@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from assignments.load import load_assignment
 from grader.adjust import TOTAL, Adjustment, Standing, check_adjustment, decided, settle
+from grader.advice import next_steps
 from grader.model import Diagnosis, Finding, Grade, Outcome
 from vml_course.errors import InputError, UnknownNameError
 
@@ -122,19 +125,30 @@ GRADE = Grade(
 )
 
 
-@pytest.mark.parametrize(("points", "outcome"), [(6.0, Outcome.RIGHT), (2.5, Outcome.PARTIAL), (0.0, Outcome.WRONG)])
-def test_the_page_says_what_a_person_decided_once_in_place_of_all_aspects(points: float, outcome: Outcome) -> None:
+@pytest.mark.parametrize(("points", "outcome"), [(6.0, Outcome.RIGHT), (2.4, Outcome.PARTIAL), (0.0, Outcome.WRONG)])
+def test_the_page_says_what_a_person_decided_once_and_shares_it_out_among_the_aspects(
+    points: float, outcome: Outcome
+) -> None:
     told = decided(GRADE, [_set("e", points)])
-    one = Finding("e", "value", outcome, points, 6.0, "A person decided: seen on paper")
-    assert told.findings == (one, GRADE.findings[1])
+    value = Finding("e", "value", outcome, points * 5 / 6, 5.0, "A person decided: seen on paper")
+    unit = Finding("e", "unit", outcome, points / 6, 1.0, "")
+    assert told.findings == (value, GRADE.findings[1], unit)
+    assert told.decided == {"e"}
 
 
-def test_a_decision_stands_where_the_first_finding_of_its_question_stood() -> None:
-    told = decided(GRADE, [_set("e", 6.0), _set("I", 6.0)])
-    assert [(one.question_id, one.outcome, one.out_of) for one in told.findings] == [
-        ("e", Outcome.RIGHT, 6.0),
+def test_a_decision_about_one_question_says_nothing_of_another() -> None:
+    told = decided(GRADE, [_set("I", 6.0)])
+    assert [(one.question_id, one.outcome, one.points) for one in told.findings] == [
+        ("e", Outcome.WRONG, 1.0),
         ("I", Outcome.RIGHT, 6.0),
+        ("e", Outcome.WRONG, 1.0),
     ]
+
+
+def test_a_decision_about_what_is_worth_nothing_gives_nothing() -> None:
+    free = Grade((_found("tracking", "table", 0.0, 0.0),), 0.0, 0.0, "ok")
+    (told,) = decided(free, [_set("tracking", 0.0)]).findings
+    assert (told.points, told.out_of, told.outcome) == (0.0, 0.0, Outcome.RIGHT)
 
 
 def test_the_page_says_the_newest_decision() -> None:
@@ -156,3 +170,12 @@ def test_findings_stay_where_nobody_decided_about_the_question(decisions: list[A
 
 def test_the_student_is_told_of_which_symbol_and_why_but_not_by_whom() -> None:
     assert _set("e", 4.5).told("e") == "e set to 4.5 points: seen on paper"
+
+
+@pytest.mark.parametrize(
+    ("points", "words"), [(6.0, "nothing to do"), (3.0, "A person has looked"), (0.0, "A person has")]
+)
+def test_what_a_person_decided_is_not_to_be_repaired(points: float, words: str) -> None:
+    told = decided(replace(GRADE, findings=GRADE.findings[:1], diagnosis=()), [_set("e", points)])
+    (step,) = next_steps(told, KICK, may_hand_in=True, show_truth=False)
+    assert words in step

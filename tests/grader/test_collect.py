@@ -17,6 +17,7 @@ from grader.gradebook import Gradebook
 from grader.grading import Wanted, grade_again, grade_collected, grade_files
 from grader.receipts import handed_in_at
 from grader.releasing import release_grades, released_grades
+from grader.usecases import release
 from vml_course.cli import run
 from vml_course.errors import FileMissingError
 
@@ -326,3 +327,30 @@ def test_what_is_no_download_is_one_line(term) -> None:
         collect(term.course, SLUG, broken)
     with pytest.raises(FileMissingError, match="expected a zip or a folder"):
         collect(term.course, SLUG, term.course.folder / "none.zip")
+
+
+# ---------------------------------------------------------------- pages that follow what holds
+
+
+def _page(term) -> str:
+    return (term.course.folder / "feedback" / SLUG / f"{term.pids[0]}.html").read_text(encoding="utf-8")
+
+
+def test_an_extension_is_on_the_students_page_at_once(term) -> None:
+    term.say('[assignment.soccer-kick]\ndue = 2026-05-01T22:00:00\nlate = { rule = "fixed", share = 0.2 }\n')
+    collect(term.course, SLUG, term.download(**{"s_LATE_901_1_lab.xlsx": term.file(0)}))
+    grade_collected(term.course, SLUG)
+    assert "are taken off" in _page(term)
+    hours = ["--hours", "8000", "--reason", "ill"]
+    assert run(["gradebook", "extend", term.pids[0], *hours, "--course", str(term.course.folder)]) == 0
+    assert "are taken off" not in _page(term)
+
+
+def test_a_release_writes_true_values_when_the_time_is_over(term) -> None:
+    term.say("[assignment.soccer-kick]\ndue = 2126-05-01T22:00:00\n")
+    collect(term.course, SLUG, term.download(**{"s_901_1_lab.xlsx": term.file(0)}))
+    grade_collected(term.course, SLUG)
+    assert "True value" not in _page(term)
+    term.say("[assignment.soccer-kick]\ndue = 2026-05-01T22:00:00\n")
+    release(term.course, SLUG, who="ann")
+    assert "True value" in _page(term)
