@@ -134,7 +134,7 @@ def render_handout(
     picture: FirstPicture,
     *,
     video: str = "video.mp4",
-    due: str = "",
+    terms: Sequence[str] = (),
 ) -> str:
     """Return the handout as HTML.
 
@@ -149,8 +149,8 @@ def render_handout(
     picture : FirstPicture
     video : str
         Name of the video file.
-    due : str
-        When it is to be handed in, as students read it; "" for no date.
+    terms : sequence of str
+        When and how it is to be handed in, a sentence each.
 
     Raises
     ------
@@ -170,7 +170,7 @@ def render_handout(
     can_check = is_of_catalogue(assignment.folder)
     try:
         template = environment.get_template(assignment.handout_template)
-        return template.render(**told, columns=columns, vector=vector, video=video, due=due, can_check=can_check)
+        return template.render(**told, columns=columns, vector=vector, video=video, terms=terms, can_check=can_check)
     except TemplateError as error:
         raise AssignmentFileError(
             f"{assignment.id}/{assignment.handout_template}",

@@ -49,7 +49,7 @@ class Order:
     assignment: Assignment
     secret: bytes = field(repr=False)
     student: str
-    due: str = ""
+    terms: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -178,7 +178,7 @@ def _write(
     still, impact = _pictures(made.video, key)
     points_px = {point: truth.point_px(point) for point in assignment.points}
     picture = FirstPicture(still, points_px, stick_px(truth, assignment))
-    html = render_handout(assignment, variant, given, picture, video=made.video.name, due=order.due)
+    html = render_handout(assignment, variant, given, picture, video=made.video.name, terms=order.terms)
     out.mkdir()
     write_workbook(out / WORKBOOK, assignment, variant, given)
     write_handout(out / HANDOUT, html)

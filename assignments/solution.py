@@ -55,7 +55,7 @@ def render_solution(assignment: Assignment, key: AnswerKey) -> str:
         assignment=assignment,
         code=key.code,
         given=key.given,
-        due="",
+        terms=(),
         measured=[(question, printed(key.values[question.id]), _found(question, key)) for question in measured],
         worked=list(_worked(assignment, key)),
         wrong=list(_wrong(assignment, key)),

@@ -154,11 +154,7 @@ class Calendar:
         >>> Calendar("Europe/Berlin", {"kick": Terms(due=due)}).due_text("kick")
         'Tuesday 1 December 2026, 23:59 (Europe/Berlin)'
         """
-        due = self.terms_of(assignment_id, student).due
-        if due is None:
-            return ""
-        local = due.astimezone(self.zone)
-        return f"{_DAYS[local.weekday()]} {local.day} {_MONTHS[local.month - 1]} {local:%Y, %H:%M} ({self.time_zone})"
+        return moment_text(self.terms_of(assignment_id, student).due, self.time_zone)
 
 
 # Not strftime's names: these follow the language of the machine.
@@ -167,3 +163,11 @@ _MONTHS = (
     "January", "February", "March", "April", "May", "June", "July", "August", "September", "October", "November",
     "December",
 )  # fmt: skip
+
+
+def moment_text(moment: dt.datetime | None, zone: str) -> str:
+    """Return a moment as students read it, "" for none."""
+    if moment is None:
+        return ""
+    local = moment.astimezone(ZoneInfo(zone))
+    return f"{_DAYS[local.weekday()]} {local.day} {_MONTHS[local.month - 1]} {local:%Y, %H:%M} ({zone})"

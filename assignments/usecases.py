@@ -95,7 +95,7 @@ def hand_out(  # noqa: PLR0913 - four things to hand out, and how
     is_kept: IsKept | None = None,
     workers: int = 1,
     cluster: str = "",
-    due: Mapping[str, str] | None = None,
+    terms: Mapping[str, tuple[str, ...]] | None = None,
     progress: Progress | None = None,
 ) -> list[HandedOut]:
     """Make video, workbook and handout for every student, and keep the keys.
@@ -110,8 +110,8 @@ def hand_out(  # noqa: PLR0913 - four things to hand out, and how
         Processes that work at the same time.
     cluster : str
         Address of a dask scheduler that does the work instead; `local:N` starts one.
-    due : mapping of str to str, optional
-        Date that the handout shows, by pseudonym.
+    terms : mapping of str to tuple of str, optional
+        What the handout says of date, lateness and attempts, by pseudonym.
     progress : callable, optional
         Told how many students are done, of how many.
 
@@ -131,7 +131,7 @@ def hand_out(  # noqa: PLR0913 - four things to hand out, and how
     tell(len(results) - len(missing), len(results))
     if missing:
         handouts.open_bundle(missing)
-        orders = (Order(assignment, course.secret, student, (due or {}).get(student, "")) for student in missing)
+        orders = (Order(assignment, course.secret, student, (terms or {}).get(student, ())) for student in missing)
         course.handouts(assignment.id).parent.mkdir(parents=True, exist_ok=True)  # of cost and log
         with open_executor(workers, cluster) as executor:
             desk = _Desk(handouts, keep, log_file(course, assignment))

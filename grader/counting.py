@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from assignments.terms import Terms
+from assignments.terms_words import late_text
 from grader.ledger import Row
 from grader.page import counted, points_text
 
@@ -49,6 +50,7 @@ def standing(row: Row | None, terms: Terms, due: str, *, is_over: bool) -> Stand
     used = row.attempts if row else 1
     left = max(terms.attempts - used, 0) if terms.attempts else None
     sentences = [f"Due: {due}."] if due else []
+    sentences += [] if is_over or not due else [late_text(terms.late)]
     sentences += _lateness(row, terms) if row else []
     sentences.append(_attempts(used, left, terms, is_over=is_over))
     if row and row.ignored:

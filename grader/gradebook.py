@@ -280,8 +280,8 @@ class Gradebook:
             note(connection, "graded", submission.code, data)
         return attempt
 
-    def adjust(self, assignment: Assignment, pid: str, adjustment: Adjustment) -> Row:
-        """Record what a person decided about the attempt that counts; return the grade that follows.
+    def adjust(self, assignment: Assignment, pid: str, adjustment: Adjustment) -> tuple[int, Row]:
+        """Record what a person decided about the attempt that counts; return that attempt, and the grade that follows.
 
         Raises
         ------
@@ -298,7 +298,7 @@ class Gradebook:
                 raise InputError(pid, f"a student whose {assignment.id} was graded", "none", hint)
             add_adjustment(connection, at, adjustment)
             note(connection, "adjusted", pid, {"assignment": assignment.id, **asdict(adjustment)})
-        return self.row(assignment.id, pid)
+        return counting[0].attempt, self.row(assignment.id, pid)
 
     def row(self, assignment_id: str, pid: str) -> Row:
         """Return the effective grade of one student, who was graded."""

@@ -76,13 +76,15 @@ def set_(
     from grader.usecases import set_points
 
     adjustment = Adjustment(question, points, reason, getpass.getuser(), now())
-    row = set_points(the_course(course), assignment, pid, adjustment)
+    before, row = set_points(the_course(course), assignment, pid, adjustment)
     if as_json:
         print_json(asdict(row))
         return
     typer.echo(f"{pid}: {adjustment}")
     earned = points_text(row.points, is_provisional=row.is_provisional)
     typer.echo(f"{earned} / {points_text(row.out_of)}  {row.status}  {' '.join(row.reasons)}".rstrip())
+    if row.attempt != before:
+        typer.echo(f"Note: attempt {row.attempt} counts now; what you decided stands with attempt {before}.")
     typer.echo("The class page and the student's are written anew.")
 
 

@@ -16,6 +16,7 @@ from assignments.course import Course
 from assignments.load import load_assignment
 from assignments.model import Assignment
 from assignments.plan import Plan, make_plan, sample_cost
+from assignments.terms_words import terms_text
 from assignments.usecases import HandedOut, cost_file, hand_out, handouts_of, look_through
 from grader.filling.cells import harmless
 from grader.gradebook import Gradebook, Student, is_begun
@@ -101,7 +102,7 @@ def hand_out_to(  # noqa: PLR0913 - to whom, and by whom
             is_kept=lambda pid: gradebook.has_key(assignment.id, pid),
             workers=workers,
             cluster=cluster,
-            due={pid: course.calendar.due_text(assignment.id, pid) for pid in students},
+            terms={pid: terms_text(course.calendar, assignment.id, pid) for pid in students},
             progress=progress,
         )
     numbers = _participants(students.values()) if participants is None else participants

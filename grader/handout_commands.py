@@ -91,7 +91,9 @@ def _print_handed(handed: Handed) -> None:
     if again:
         typer.echo(f"{again} variants were drawn again after they were foreseen or measured: redrawn-*.log says why.")
     if handed.bundle:
-        typer.echo(f"For a learning platform: {', '.join(handed.bundle)}.")
+        fits = any("moodle_participant" in (student.ids or {}) for student in handed.students.values())
+        until = "" if fits else " (once vml roster import knows its participants' numbers; else one zip a student)"
+        typer.echo(f"For Moodle{until}: {', '.join(handed.bundle)}.")
         typer.echo(f"Whose is whose: {handed.table} (keep it to yourself).")
     done = len(handed.results) - len(handed.failed)
     typer.echo(f"{done} of {len(handed.results)} handed out.")

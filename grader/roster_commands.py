@@ -92,12 +92,13 @@ def purge(
 
     Example: vml roster purge --course dynamics-2024
     """
-    from grader.rostering import purge_names
+    from grader.page import counted
+    from grader.rostering import places_of_names, purge_names
 
     opened = the_course(course)
     if not yes:
         typer.confirm("Names cannot be brought back from the gradebook. Remove them?", abort=True)
     number = purge_names(opened, dropped_only=dropped_only)
-    typer.echo(f"The names of {number} students are gone from the gradebook.")
-    if opened.roster.is_file():
-        typer.echo(f"{opened.roster} still holds names: remove it, too.")
+    typer.echo(f"Gone from the gradebook: the names of {counted(number, 'student')}.")
+    for place in places_of_names(opened):
+        typer.echo(f"Names are still in {place}: remove it, or make it anew.")

@@ -49,3 +49,10 @@ def purge_names(course: Course, *, dropped_only: bool = False) -> int:
     with Gradebook.open(course) as book:
         pids = (s.pid for s in book.students() if not dropped_only or s.status == DROPPED)
         return book.forget_names(pids)
+
+
+def places_of_names(course: Course) -> tuple[str, ...]:
+    """Return the files of a course that hold names beside the gradebook, as far as they exist."""
+    patterns = (course.roster.name, "handouts/roster-*.csv", "feedback/*/class.html", "exports/*", "gradebook-before-*")
+    found = (path for pattern in patterns for path in sorted(course.folder.glob(pattern)))
+    return tuple(path.relative_to(course.folder).as_posix() for path in found)

@@ -15,8 +15,15 @@ from grader.marker import Marker, Progress, Wanted, silent, write_class_page
 from grader.releasing import Change, release_grades
 
 
-def set_points(course: Course, assignment_id: str, pid: str, adjustment: Adjustment) -> Row:
-    """Record what a person decided, and write the class page and the student's anew; return the grade that follows.
+def set_points(course: Course, assignment_id: str, pid: str, adjustment: Adjustment) -> tuple[int, Row]:
+    """Record what a person decided, and write the class page and the student's anew.
+
+    Returns
+    -------
+    attempt : int
+        The attempt that was decided about; where the best counts, another may count now.
+    row : Row
+        The grade that follows.
 
     Raises
     ------
@@ -26,10 +33,10 @@ def set_points(course: Course, assignment_id: str, pid: str, adjustment: Adjustm
     by_symbol = {symbol_text(question.symbol): question.id for question in assignment.questions}
     adjustment = replace(adjustment, question=by_symbol.get(adjustment.question, adjustment.question))
     with Gradebook.open(course) as gradebook:
-        row = gradebook.adjust(assignment, pid, adjustment)
+        attempt, row = gradebook.adjust(assignment, pid, adjustment)
         write_class_page(course, gradebook, assignment)
         _rewrite_pages(course, gradebook, [row])
-    return row
+    return attempt, row
 
 
 def _rewrite_pages(course: Course, gradebook: Gradebook, rows: Sequence[Row], progress: Progress = silent) -> None:

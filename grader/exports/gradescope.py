@@ -22,6 +22,7 @@ from grader.autograder.wheels import download_wheels, python_version, wheels_in
 from grader.enrolment import ACTIVE, Student
 from grader.filling.job import Export, Job, Line
 from grader.gradebook import Gradebook
+from vml_course.errors import InputError
 
 SCRIPTS = ("setup.sh", "run_autograder")
 _PACKAGES = ("vml_course", "assignments", "grader")
@@ -102,6 +103,9 @@ def _class(job: Job) -> tuple[list[Held], Mapping[str, str], tuple[Line, ...]]:
             held.append(_held(job.course, book, job.assignment.id, student.pid))
             addresses[_address(student)] = student.pid
             lines.append(Line(student.name, "filled", reason="is in it with a variant", pid=student.pid))
+    if not held and lines:
+        hint = "Import a class list with e-mail addresses (vml roster import), and hand out first."
+        raise InputError(f"{job.assignment.id} to gradescope", "students with a variant", lines[0].reason, hint)
     return held, addresses, tuple(lines)
 
 

@@ -10,6 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from assignments.terms import Calendar, Extension, Late, Terms
+from assignments.terms_words import late_text, terms_text
 
 HOUR = 3600.0
 DUE = dt.datetime(2026, 5, 1, 22, 0, tzinfo=dt.UTC)
@@ -110,3 +111,35 @@ def test_a_students_own_due_date_is_told_with_the_extension() -> None:
     calendar = Calendar("UTC", {"kick": Terms(due=DUE)}, (Extension("ann", "ill", hours=24),))
     assert calendar.due_text("kick", "ann") == "Saturday 2 May 2026, 22:00 (UTC)"
     assert calendar.due_text("kick", "ben") == calendar.due_text("kick") == "Friday 1 May 2026, 22:00 (UTC)"
+
+
+def test_a_student_is_told_date_lateness_last_moment_and_attempts() -> None:
+    late = Late("linear", share=0.1, per_hours=24, cap=0.5)
+    terms = Terms(due=DUE, closes=DUE + dt.timedelta(days=7), attempts=3, counts="best", late=late)
+    told = terms_text(Calendar("UTC", {"kick": terms}, (Extension("ann", "ill", hours=24),)), "kick", "ann")
+    assert told == (
+        "Due Saturday 2 May 2026, 22:00 (UTC).",
+        "Late work loses 10 % of its points for every 24 h begun, 50 % at most.",
+        "Nothing counts that comes after Saturday 9 May 2026, 22:00 (UTC).",
+        "3 attempts; the best counts.",
+    )
+
+
+@pytest.mark.parametrize(
+    ("late", "words"),
+    [
+        (Late(), ""),
+        (Late("fixed", share=0.25), "Late work loses 25 % of its points."),
+        (
+            Late("fixed", share=0.2, grace_minutes=10),
+            "Late work loses 20 % of its points; up to 10 minutes are let pass.",
+        ),
+    ],
+)
+def test_what_lateness_costs_is_said_in_words(late: Late, words: str) -> None:
+    assert late_text(late) == words
+
+
+@pytest.mark.parametrize(("attempts", "said"), [(0, ()), (1, ("One attempt.",))])
+def test_how_often_one_may_try_is_said_where_there_is_a_limit(attempts: int, said: tuple[str, ...]) -> None:
+    assert terms_text(Calendar("UTC", {"kick": Terms(attempts=attempts)}), "kick") == said

@@ -354,3 +354,13 @@ def test_a_release_writes_true_values_when_the_time_is_over(term) -> None:
     term.say("[assignment.soccer-kick]\ndue = 2026-05-01T22:00:00\n")
     release(term.course, SLUG, who="ann")
     assert "True value" in _page(term)
+
+
+def test_a_decision_after_which_another_attempt_counts_says_so(term, capsys) -> None:
+    term.say('[assignment.soccer-kick]\ncounts = "best"\n')
+    files = {"s_901_1_lab.xlsx": term.file(0), "s_901_2_lab-2.xlsx": term.file(0, I=0.91)}
+    collect(term.course, SLUG, term.download(**files))
+    grade_collected(term.course, SLUG)
+    at = ["--reason", "seen", "--course", str(term.course.folder)]
+    assert run(["gradebook", "set", term.pids[0], SLUG, "total", "1", *at]) == 0
+    assert "Note: attempt 2 counts now; what you decided stands with attempt 1." in capsys.readouterr().out

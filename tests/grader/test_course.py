@@ -146,7 +146,7 @@ def test_files_of_one_student_are_taken_in_the_order_of_their_change(room):
     assert all("2 files of this student came together" in item.message for item in graded)
     page = (room.course.folder / "feedback" / "soccer-kick" / "class.html").read_text(encoding="utf-8")
     assert "2 attempts; number 2 counts" in page
-    assert "Nothing handed in (2): Ben Example, Chi Example" in page
+    assert "No grade yet (2): Ben Example, Chi Example" in page
 
 
 def test_a_person_settles_a_review(room, capsys):

@@ -33,7 +33,11 @@ def _release(order: Order, kit, folder: Path) -> Release:
     key: AnswerKey = kit.key_of(kit.impact(), code=variant.code, student=order.student)
     path = folder / f"{order.student}.xlsx"
     write_workbook(path, order.assignment, variant, given_values(order.assignment, variant))
-    files = {"video.mp4": b"pictures", "handout.html": order.due.encode(), "workbook.xlsx": path.read_bytes()}
+    files = {
+        "video.mp4": b"pictures",
+        "handout.html": " ".join(order.terms).encode(),
+        "workbook.xlsx": path.read_bytes(),
+    }
     return Release(variant, key, (), files, {"film": 1.0})
 
 

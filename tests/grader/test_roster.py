@@ -343,3 +343,16 @@ def test_a_missing_roster_is_told(tmp_path):
 
 
 # ---------------------------------------------------------------- grading a batch
+
+
+def test_removing_names_says_where_others_are_left(tmp_path: Path, capsys) -> None:
+    course = new_course(tmp_path / "c")
+    with Gradebook.open(course) as book:
+        book.students_from_roster(course.roster)
+    (course.folder / "exports").mkdir()
+    (course.folder / "exports" / "soccer-kick-csv.csv").write_text("name,points")
+    assert run(["roster", "purge", "--yes", "--course", str(course.folder)]) == 0
+    said = capsys.readouterr().out
+    assert "the names of 3 students" in said
+    assert "Names are still in roster.csv" in said
+    assert "Names are still in exports/soccer-kick-csv.csv" in said

@@ -82,8 +82,8 @@ def test_a_persons_decision_belongs_to_the_attempt_that_counts(url, kit, assignm
         pid = _ready(book, kit)
         book.record_run(_submission("a"), _grade(2.0))
         book.record_run(_submission("b"), _grade(6.0))
-        row = book.adjust(assignment, pid, Adjustment("e", 5.0, "seen on paper", "tutor", _at(0)))
-        assert (row.attempt, row.points) == (1, 5.0)
+        attempt, row = book.adjust(assignment, pid, Adjustment("e", 5.0, "seen on paper", "tutor", _at(0)))
+        assert (attempt, row.attempt, row.points) == (1, 1, 5.0)
 
 
 def test_what_was_drawn_is_frozen_beside_the_key(url, kit) -> None:
