@@ -233,9 +233,10 @@ class Gradebook:
 
         Raises
         ------
-        NoKeyError
-            When this student has no variant of the assignment.
+        InputError
+            When there is no such student, or they have no variant of the assignment.
         """
+        self.student(arrived.pid)
         self.key_of(arrived.assignment, arrived.pid)
         with self._engine.begin() as connection:
             return claim_receipt(connection, arrived)

@@ -51,8 +51,8 @@ def grade_files(
     ------
     FileMissingError
         When none of the files exists.
-    NoKeyError
-        When the student whose they are said to be has no variant of that assignment.
+    InputError
+        When there is no such student as they are said to be of, or no variant of that assignment for them.
     """
     listed = listed_files(files)
     with Gradebook.open(course) as book, wanted.crew_for(len(listed)) as crew:

@@ -13,6 +13,7 @@ from grader.adjust import Adjustment
 from grader.gradebook import Gradebook, Row
 from grader.marker import Marker, Progress, Wanted, silent, write_class_page
 from grader.releasing import Change, release_grades
+from vml_course.errors import InputError
 
 
 def set_points(course: Course, assignment_id: str, pid: str, adjustment: Adjustment) -> tuple[int, Row]:
@@ -71,6 +72,8 @@ def extend_student(course: Course, given: Extension) -> list[str]:
     ------
     InputError, CourseError
     """
+    if not given.hours and not given.attempts:
+        raise InputError("extension", "--hours or --attempts above 0", "neither")
     with Gradebook.open(course) as gradebook:
         gradebook.student(given.student)
         extended = add_extension(course, given)

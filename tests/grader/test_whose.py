@@ -12,6 +12,7 @@ from grader.errors import NoKeyError
 from grader.gradebook import Gradebook
 from grader.grading import Whose, grade_again, grade_files
 from vml_course.cli import run
+from vml_course.errors import InputError
 
 
 def _without_code(workbook: bytes) -> bytes:
@@ -71,8 +72,10 @@ def test_numbers_of_another_students_video_are_not_graded_for_this_one(term) -> 
 
 
 def test_a_student_without_a_variant_has_nothing_to_be_graded_by(term, rebuilt) -> None:
-    with pytest.raises(NoKeyError):
+    with pytest.raises(InputError, match="expected a pseudonym of this course, got 's99'"):
         grade_files(term.course, [rebuilt], whose=Whose("s99", term.assignment.id, "ann"))
+    with pytest.raises(NoKeyError):
+        grade_files(term.course, [rebuilt], whose=Whose(term.pids[0], "two-pucks", "ann"))
 
 
 def test_at_the_prompt(term, rebuilt, capsys) -> None:

@@ -13,9 +13,13 @@ from importlib.metadata import packages_distributions
 
 import pytest
 
+from assignments.course import new_course
 from grader.autograder.truth import from_bytes
 from grader.autograder.wheels import NEEDED, distributions, wheels_in
-from vml_course.errors import FileMissingError
+from grader.exporting import export_grades
+from grader.gradebook import Gradebook
+from grader.roster import Enrolled
+from vml_course.errors import FileMissingError, InputError
 
 
 def test_files_stand_at_the_root_with_unix_line_ends_and_may_be_executed(packed) -> None:
@@ -53,6 +57,17 @@ def test_a_missing_wheel_is_named(wheels, tmp_path) -> None:
     (tmp_path / "w" / "numpy-1.0-py3-none-any.whl").unlink()
     with pytest.raises(FileMissingError, match="none of numpy"):
         wheels_in(tmp_path / "w")
+
+
+def test_a_class_that_gradescope_cannot_know_gets_no_zip(tmp_path) -> None:
+    course = new_course(tmp_path / "c")
+    with Gradebook.open(course) as book:
+        book.take_in([Enrolled("Ann", "", {"canvas_id": "901"})])
+    with pytest.raises(
+        InputError, match=r"expected students with a variant, got has no e-mail address.* Import a class list"
+    ):
+        export_grades(course, "soccer-kick", "gradescope")
+    assert not list(course.folder.glob("exports/*.zip"))
 
 
 def test_what_the_autograder_imports_is_among_the_wheels() -> None:
