@@ -183,6 +183,11 @@ def test_the_hash_of_what_is_said_changes_with_every_part_of_it(assignment):
     assert len(usual) == 64
 
 
+def test_a_question_without_a_symbol_is_not_found_by_punctuation(assignment):
+    question = replace(assignment.question("e"), symbol="")
+    assert find_submission(book_of([["==", 0.9]]), [question]).answer("e") == Answer()
+
+
 def test_an_address_on_a_sheet_that_is_gone_finds_nothing(assignment):
     assert answer_of(assignment, [[1.0]], template={"e": "Elsewhere!A1"}) == Answer()
     assert answer_of(assignment, [[1.0]], template={"e": "Answers"}) == Answer()
@@ -244,8 +249,13 @@ def test_the_meta_sheet_is_read_by_its_names():
 @pytest.mark.parametrize("meta", [[], [["variant_code", "X"]], [["assignment", "soccer-kick"]]])
 def test_a_workbook_that_is_not_ours_is_told_so(meta):
     data = corpus.Dialect().write({"Answers": [["x"]], "_meta": meta})
-    with pytest.raises(UnreadableError, match="without our variant code"):
+    with pytest.raises(UnreadableError, match="w.xlsx: .* without our variant code.* Type your answers into"):
         claims_of(read_workbook(ReadRequest("w.xlsx", data)))
+
+
+def test_a_workbook_without_our_hidden_sheet_is_told_so():
+    with pytest.raises(UnreadableError, match="without our variant code"):
+        claims_of(read_workbook(ReadRequest("w.xlsx", corpus.Dialect().write({"Answers": [["x"]]}))))
 
 
 def test_a_given_number_is_found_beside_its_label():

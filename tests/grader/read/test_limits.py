@@ -7,7 +7,8 @@ import struct
 import corpus
 import pytest
 
-from grader.read import ReadRequest, UnreadableError, limits, read_workbook
+from grader.kind import Kind
+from grader.read import BookCell, ReadRequest, UnreadableError, limits, read_workbook
 from grader.read.book import shown_name
 from grader.read.container import open_container
 from grader.read.errors import RefusedError
@@ -49,6 +50,30 @@ def test_a_row_says_its_number_or_is_the_next():
     assert set(found.cells) == {(5, 1), (6, 1), (7, 1)}
     far = sheet(f'<row r="1000000">{cell}</row>')
     assert (far.cells, far.flags) == ({}, {Flag.FAR_CELLS})
+
+
+@pytest.mark.parametrize(
+    ("cell", "expected"),
+    [
+        ('s="1"><v>1.5</v>', BookCell(Kind.NUMBER, 1.5, "", "0.0")),
+        ('s="1"><f>B1</f><v>1.5</v>', BookCell(Kind.NUMBER, 1.5, "", "0.0", True)),
+        ('s="1"><f>B1</f>', BookCell(Kind.UNCACHED, None, "", "0.0", True)),
+        ('s="2"><v>45413</v>', BookCell(Kind.DATE, 45413.0, "2024-05-01", "yyyy")),
+        ('s="2"><f>B1</f><v>0.5</v>', BookCell(Kind.DATE, 0.5, "12:00:00", "yyyy", True)),
+        (f"><f>B1</f><v>1e{'9' * 40}</v>", BookCell(Kind.ERROR, None, "1e" + "9" * 38, "", True)),
+        ('t="e" s="1"><v>#N/A</v>', BookCell(Kind.ERROR, None, "#N/A")),
+        ('t="b"><f>B1</f><v>1</v>', BookCell(Kind.BOOL, None, "TRUE", "", True)),
+        ('t="str" s="1"><f>B1</f><v>a</v>', BookCell(Kind.TEXT, None, "a", "0.0", True)),
+        ('t="inlineStr" s="1"><is><t>a</t></is>', BookCell(Kind.TEXT, None, "a", "0.0")),
+    ],
+)
+def test_a_cell_is_read_whole(cell, expected):
+    assert sheet(f'<c r="A1" {cell}</c>', formats=["", "0.0", "yyyy"]).cells == {(1, 1): expected}
+
+
+def test_days_are_counted_from_1904_where_the_workbook_says_so():
+    content = b'<c r="A1" s="0"><v>1</v></c>'
+    assert read_sheet(content, [], ["yyyy"], is_1904=True).cells[1, 1].written == "1904-01-02"
 
 
 def test_a_text_is_known_by_its_place_in_the_list():
