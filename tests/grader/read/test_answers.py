@@ -249,7 +249,7 @@ def test_the_meta_sheet_is_read_by_its_names():
 @pytest.mark.parametrize("meta", [[], [["variant_code", "X"]], [["assignment", "soccer-kick"]]])
 def test_a_workbook_that_is_not_ours_is_told_so(meta):
     data = corpus.Dialect().write({"Answers": [["x"]], "_meta": meta})
-    with pytest.raises(UnreadableError, match="w.xlsx: .* without our variant code.* Type your answers into"):
+    with pytest.raises(UnreadableError, match=r"w\.xlsx: .* without our variant code.* Type your answers into"):
         claims_of(read_workbook(ReadRequest("w.xlsx", data)))
 
 

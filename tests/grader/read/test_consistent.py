@@ -196,6 +196,13 @@ def test_a_sense_needs_a_sign_and_both_points_alone(said):
     assert any("foot turns clockwise" in remark for remark in said({"omega1": 20.0}, alone))
 
 
+def test_a_tenth_of_a_radian_is_no_turn(said):
+    angle, still = np.linspace(0, 0.1, N), np.zeros(N)
+    there = table(foot_x_m=1 + still, foot_y_m=np.tan(angle), knee_x_m=still, knee_y_m=still)
+    assert np.arctan2(there["foot_y_m"], there["foot_x_m"])[-1] == 0.1
+    assert said({"omega1": -20.0}, there) == []
+
+
 def test_a_missing_point_is_named_with_its_column(said):
     lacking = {k: v for k, v in table().items() if "ball" not in k and "knee" not in k}
     remark = "The table has no positions in metres called knee, ball. Name columns knee_x_m."

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from grader.kind import Kind
 from grader.read import BookCell, ReadRequest, read_workbook
-from grader.read.headings import Heading, match_points, read_heading
+from grader.read.headings import Heading, match_points, read_heading, read_headings
 from grader.read.table import other_points, read_table
 
 POINTS = ("foot", "knee", "ball")
@@ -321,6 +321,10 @@ def test_commas_and_points_in_one_table_are_not_guessed():
     found = table([["frame", "t_s", "ball_x_m", "ball_y_m"], *rows])
     assert np.isnan(found.columns["ball_x_m"][0])
     assert found.flags == {"text-in-tracking"}
+
+
+def test_a_pair_is_kept_where_nothing_else_stands():
+    assert set(read_headings({1: "ball x", 2: "ball y"}, {})) == {1, 2}
 
 
 def test_one_axis_alone_is_left_out():
