@@ -134,7 +134,7 @@ def _arms(told: _Told) -> Iterator[str]:
 def _turns(told: _Told) -> Iterator[str]:
     """Compare the sign of an angular velocity with the sense in which the table's points turn."""
     names = [f"{point}_{axis}_m" for point in (_PIVOT, _END) for axis in "xy"]
-    written = told.values.get("omega1", 0.0)
+    written = told.values.get("omega1")
     if not written or not set(names) <= told.table.keys():
         return
     px, py, ex, ey = (told.table[name] for name in names)

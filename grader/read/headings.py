@@ -10,6 +10,7 @@ import re
 import unicodedata
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 from vml_course.model.units import UNITS
 
@@ -83,11 +84,11 @@ def _heading(words: Sequence[str], unit: str) -> Heading | None:
     glued = re.fullmatch(r"(pixel)?([xy])(\w*)", words[0])
     if glued is None or len(words) > 1:
         return None
-    return _of_point(glued[2], [glued[3]] if glued[3] else [], "px" if glued[1] else unit)
+    return _of_point(glued[2], [glued[3]], "px" if glued[1] else unit)
 
 
 def _of_point(role: str, words: Sequence[str], unit: str) -> Heading | None:
-    if any(word in _DERIVED and before not in _LETTERED for before, word in zip(["", *words], words, strict=False)):
+    if any(word in _DERIVED and before not in _LETTERED for before, word in pairwise(["", *words])):
         return None
     named = [word for word in words if word != "pixel"]
     return Heading(role, "_".join(named), "px" if len(named) < len(words) else unit)

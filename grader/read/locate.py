@@ -51,7 +51,7 @@ def claims_of(book: Book) -> Claims:
     """
     sheet = next((sheet for sheet in book.sheets if sheet.name.lower().startswith(_META_SHEET)), None)
     said = dict(_pairs(sheet)) if sheet else {}
-    code, assignment = said.get("variant_code", ""), said.get("assignment", "")
+    code, assignment = said.get("variant_code"), said.get("assignment")
     if not code or not assignment:
         raise UnreadableError(book.name, "a workbook without our variant code", OUR_TEMPLATE)
     return Claims(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -91,7 +91,7 @@ def _split(sheet: Sheet, delimiter: str) -> Sheet:
                     cells[row, place] = BookCell(Kind.TEXT, written=part.strip())
         elif column == 1:
             cells[row, column] = cell
-    return Sheet(sheet.name, sheet.is_visible, cells)
+    return replace(sheet, cells=cells)
 
 
 def _headings(sheet: Sheet) -> tuple[int, dict[int, Heading]]:
@@ -153,7 +153,7 @@ def _with_points(table: Table, points: Sequence[str]) -> Table:
     for name, column in table.columns.items():
         point = _point(name)
         columns[meant.get(point, point) + name.removeprefix(point)] = column
-    unnamed = tuple(name for name in names if name not in meant) if points else ()
+    unnamed = tuple(name for name in names if name not in meant)
     # a point too many does no harm: only one that the assignment asks for must be there
     is_complete = set(points) <= set(meant.values())
     flags = table.flags | (set() if is_complete or not unnamed else {Flag.UNNAMED_POINTS})

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import io
 from dataclasses import replace
 
@@ -11,8 +12,8 @@ import pytest
 
 from grader.model import Answer, Kind, Outcome
 from grader.plausible import settle_readings
-from grader.read import ReadRequest, UnreadableError, read_workbook
-from grader.read.locate import claims_of, find_beside, find_submission
+from grader.read import BookCell, ReadRequest, UnreadableError, read_workbook
+from grader.read.locate import Claims, claims_of, find_beside, find_submission
 from grader.read.sheet import _EPOCH, _date_text
 from grader.stated import Stated, Unstated, state
 
@@ -62,6 +63,129 @@ def test_the_symbol_decides_where_the_label_stands_twice(assignment):
 def test_an_empty_cell_beside_a_label_is_blank(assignment):
     assert answer_of(assignment, [[LABEL, "e"]]).kind is Kind.BLANK
     assert answer_of(assignment, [[LABEL]]).where == "Answers!B1"
+
+
+BY_HAND = [[LABEL, "e"], *[[]] * 7, [None, None, None, None, 0.5]]
+
+
+@pytest.mark.parametrize(
+    ("grid", "place", "number", "found_by"),
+    [
+        ([[LABEL, 0.5, 0.73]], "C1", 0.73, "name"),  # the row carries the label: the name is right
+        ([["Moment", "I", 1.9], [LABEL, "e", 0.73]], "C1", 0.73, "label"),  # a row was inserted, the name stayed
+        ([[LABEL, "e"], ["Moment", 1.9]], "B2", None, "label"),
+        ([["e", 0.73], *BY_HAND[1:]], "E9", 0.73, "label"),
+        (BY_HAND, "E9", 0.5, "name"),  # moved by hand, away from its label
+        ([[LABEL, 0.73]], "B1", 0.73, "name"),
+    ],
+)
+def test_a_name_counts_unless_it_stayed_behind_its_label(assignment, grid, place, number, found_by):
+    data = corpus.Dialect().write({"Answers": grid, "_meta": META}, {"ans_e": f"Answers!${place[0]}${place[1]}"})
+    found = find_submission(read_workbook(ReadRequest("w", data)), assignment.questions).answer("e")
+    assert (found.number, found.found_by) == (number, found_by)
+
+
+@pytest.mark.parametrize(
+    ("grid", "merge", "where"),
+    [
+        ([[LABEL, None, 0.73]], (1, 1, 1, 2), "Answers!C1"),  # the label spans two columns
+        ([["x", 0.73], [LABEL]], (1, 2, 2, 2), "Answers!B2"),  # the answer spans two rows
+    ],
+)
+def test_merged_cells_are_looked_through(assignment, grid, merge, where):
+    book = book_of(grid)
+    sheet, *others = book.sheets
+    merged = replace(book, sheets=(replace(sheet, merges=(merge,)), *others))
+    found = find_submission(merged, assignment.questions).answer("e")
+    assert (found.number, found.where) == (0.73, where)
+
+
+@pytest.mark.parametrize(
+    ("row", "number", "unit"),
+    [
+        ([LABEL, "e", 0.73, " m/s "], 0.73, "m/s"),
+        ([LABEL, 0.73, 5.0], 0.73, ""),
+        ([LABEL, 0.73, "u" * 41], 0.73, "u" * 40),
+        ([LABEL, None, None, None, 0.73, "m"], 0.73, "m"),  # four columns are the farthest
+        ([LABEL, None, None, None, None, 0.73], None, ""),
+        ([LABEL, "e", None, 6.0], None, ""),  # nothing behind the symbol: the points are no answer
+    ],
+)
+def test_right_of_a_label_stands_the_answer_and_then_its_unit(assignment, row, number, unit):
+    found = answer_of(assignment, [row])
+    assert (found.number, found.unit_text, found.found_by) == (number, unit, "label")
+
+
+def test_at_the_address_of_the_template_stands_the_answer_and_then_its_unit(assignment):
+    found = answer_of(assignment, [[None, 0.73, "m"]], template={"e": "Answers!B1"})
+    assert (found.number, found.unit_text, found.found_by) == (0.73, "m", "address")
+
+
+def test_the_unit_of_a_format_is_that_of_positive_numbers(assignment):
+    book = book_of([["e"]])
+    sheet, *others = book.sheets
+    for code, unit in (('0.0" m/s";-0.0" s"', "m/s"), ('0.0;-0.0" s"', ""), ('0.0"' + "u" * 21 + '"', "")):
+        cells = {**sheet.cells, (1, 2): BookCell(Kind.NUMBER, 0.73, "", code)}
+        changed = replace(book, sheets=(replace(sheet, cells=cells), *others))
+        assert find_submission(changed, assignment.questions).answer("e").unit_text == unit
+
+
+@pytest.mark.parametrize(
+    ("sheet", "reference"),
+    [
+        ("Answers", "Answers!$A$2"),
+        ("Answers", "=ANSWERS!A2"),
+        ("My sheet", "'My sheet'!$A$2:$C$9"),
+        ("O'Neil", " 'O''Neil'!$A$2 "),
+        ("a!b", "'a!b'!$A$2"),
+    ],
+)
+def test_a_reference_is_followed_however_it_is_written(assignment, sheet, reference):
+    book = read_workbook(ReadRequest("w", corpus.Dialect().write({sheet: [["x"], [0.73]], "_meta": META})))
+    assert find_submission(book, assignment.questions, {"e": reference}).answer("e").number == 0.73
+
+
+def test_hidden_sheets_and_our_own_have_no_answers(assignment):
+    book = book_of([["x"]], Tracking=[["e", 1.0]], INSTRUCTIONS=[["e", 2.0]], Mine=[["e", 3.0]])
+    assert find_submission(book, assignment.questions).answer("e").number == 3.0
+    sheets = [replace(sheet, is_visible=sheet.name != "Mine") for sheet in book.sheets]
+    hidden = find_submission(replace(book, sheets=tuple(sheets)), assignment.questions)
+    assert (hidden.answer("e").kind, hidden.flags) == (Kind.BLANK, ("hidden-sheet",))
+    ours = [replace(sheet, is_visible=not sheet.name.startswith("_")) for sheet in book.sheets]
+    assert find_submission(replace(book, sheets=tuple(ours)), assignment.questions).flags == ()
+
+
+def test_a_submission_says_all_that_the_workbook_does(assignment):
+    grid = [["frame", "t", "Ball x", "Ball y"], *([i, i, i, "-"] for i in range(5))]
+    data = corpus.Dialect().write({"Answers": [["e", 0.73]], "Tracking": grid, "_meta": META})
+    found = find_submission(read_workbook(ReadRequest("w.xlsx", data)), assignment.questions, points=("ball",))
+    assert (found.name, found.assignment_id, found.code) == ("w.xlsx", "soccer-kick", "CODE1")
+    assert (found.flags, found.file_sha256) == (("text-in-tracking",), hashlib.sha256(data).hexdigest())
+    assert found.tracking["ball_x_m"].tolist() == [0, 1, 2, 3, 4]
+
+
+def test_the_hash_of_what_is_said_changes_with_every_part_of_it(assignment):
+    def said(*row, x=1.0):
+        grid = [["frame", "ball_x_m", "ball_y_m"], [1.0, x, 1.0]]
+        found = find_submission(book_of([list(row)], Tracking=grid), assignment.questions)
+        return found.content_sha256
+
+    usual = said("e", 0.5, "m")
+    assert usual == said("e", 0.5 + 1e-16, "m", x=1 + 2e-16) == said("coefficient of restitution", 0.5, "m")
+    different = {
+        said("e", 0.5),
+        said("e", "0.5", "m"),
+        said("e", 0.6, "m"),
+        said("I", 0.5, "m"),
+        said("e", 0.5, "m", x=2.0),
+    }
+    assert len({usual, *different}) == 6
+    assert len(usual) == 64
+
+
+def test_a_question_without_a_symbol_is_not_found_by_punctuation(assignment):
+    question = replace(assignment.question("e"), symbol="")
+    assert find_submission(book_of([["==", 0.9]]), [question]).answer("e") == Answer()
 
 
 def test_an_address_on_a_sheet_that_is_gone_finds_nothing(assignment):
@@ -114,17 +238,33 @@ def test_the_meta_sheet_says_its_version():
     assert claims_of(book_of([["x"]])).version == "1"
 
 
+def test_the_meta_sheet_is_read_by_its_names():
+    rows = [[" Variant_Code ", " CODE1 ", "no"], ["assignment", "a"], ["signature", "s"], ["purpose", "p"], [1.0, "x"]]
+    data = corpus.Dialect().write({"x": [["variant_code", "no"]], "_META (2)": [*rows, [None, "assignment", "no"]]})
+    assert claims_of(read_workbook(ReadRequest("w", data))) == Claims("CODE1", "a", "s", "", "p")
+    bare = corpus.Dialect().write({"_meta": rows[:2]})
+    assert claims_of(read_workbook(ReadRequest("w", bare))) == Claims("CODE1", "a")
+
+
 @pytest.mark.parametrize("meta", [[], [["variant_code", "X"]], [["assignment", "soccer-kick"]]])
 def test_a_workbook_that_is_not_ours_is_told_so(meta):
     data = corpus.Dialect().write({"Answers": [["x"]], "_meta": meta})
-    with pytest.raises(UnreadableError, match="without our variant code"):
+    with pytest.raises(UnreadableError, match=r"w\.xlsx: .* without our variant code.* Type your answers into"):
         claims_of(read_workbook(ReadRequest("w.xlsx", data)))
+
+
+def test_a_workbook_without_our_hidden_sheet_is_told_so():
+    with pytest.raises(UnreadableError, match="without our variant code"):
+        claims_of(read_workbook(ReadRequest("w.xlsx", corpus.Dialect().write({"Answers": [["x"]]}))))
 
 
 def test_a_given_number_is_found_beside_its_label():
     book = book_of([["L", 0.5]], Instructions=[["Mass of the ball", "m", 0.35, "kg"]])
     assert find_beside(book, "mass of the ball") == 0.35
     assert find_beside(book, "Diameter") is None
+    assert find_beside(book, "L") == 0.5
+    assert find_beside(book_of([["L", None, None, None, 0.5]]), "L") == 0.5  # four columns are the farthest
+    assert find_beside(book_of([["L", None, None, None, None, 0.5]]), "L") is None
 
 
 # ---------------------------------------------------------------- odd cells
@@ -214,6 +354,8 @@ def settled(assignment, question, text, truth=None, unit=""):
         ("v_f1", "9,703", None, "9.703"),
         ("fps", "1,200", None, "1200"),
         ("px_per_m", "1,234", None, ""),
+        ("px_per_m", "1,000", None, ""),  # one pixel in a metre is the least
+        ("fps", "10,000", None, ""),
         ("px_per_m", "1,234", {"px_per_m": 1200.0}, "1234"),
         ("px_per_m", "1,234", {"px_per_m": 0.0}, ""),
         ("v_f1", "9,703 px/s", None, ""),
@@ -244,3 +386,8 @@ def test_a_dimension_without_range_settles_nothing(assignment):
     questions = {"e": replace(assignment.question("e"), dimension="time")}
     submission = find_submission(book_of([["e", "1,234"]]), questions.values())
     assert settle_readings(submission, questions).answer("e").read_as == ""
+
+
+def test_an_answer_to_no_question_is_left_as_it_is(assignment):
+    submission = find_submission(book_of([["e", "1,234"], ["fps", 3.0]]), assignment.questions)
+    assert settle_readings(submission, {}).answers == submission.answers

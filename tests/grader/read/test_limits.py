@@ -7,14 +7,15 @@ import struct
 import corpus
 import pytest
 
-from grader.read import ReadRequest, UnreadableError, limits, read_workbook
+from grader.kind import Kind
+from grader.read import BookCell, ReadRequest, UnreadableError, limits, read_workbook
 from grader.read.book import shown_name
 from grader.read.container import open_container
 from grader.read.errors import RefusedError
 from grader.read.flags import Flag
 from grader.read.markup import parse
 from grader.read.parts import read_directory, read_formats, read_relations, read_strings
-from grader.read.sheet import read_sheet
+from grader.read.sheet import address_of, place_of, read_sheet, shortest
 from grader.read.sniff import require_zip
 
 
@@ -36,6 +37,110 @@ def test_the_last_row_and_the_last_column_are_read():
     for place in ("A20001", "IW1"):
         beyond = sheet(f'<c r="{place}"><v>1</v></c>')
         assert (beyond.cells, beyond.flags) == ({}, {Flag.FAR_CELLS})
+
+
+@pytest.mark.parametrize(("address", "column"), [("Z9", 26), ("AA9", 27), ("AB9", 28), ("AZ9", 52), ("AAA9", 703)])
+def test_columns_are_counted_in_letters(address, column):
+    assert (place_of(address), address_of((9, column))) == ((9, column), address)
+
+
+def test_a_row_says_its_number_or_is_the_next():
+    cell = "<c><v>1</v></c>"
+    found = sheet(f'<row r="5">{cell}</row><row>{cell}</row><row r="12345678">{cell}</row>')  # too long for a number
+    assert set(found.cells) == {(5, 1), (6, 1), (7, 1)}
+    far = sheet(f'<row r="1000000">{cell}</row>')
+    assert (far.cells, far.flags) == ({}, {Flag.FAR_CELLS})
+
+
+@pytest.mark.parametrize(
+    ("cell", "expected"),
+    [
+        ('s="1"><v>1.5</v>', BookCell(Kind.NUMBER, 1.5, "", "0.0")),
+        ('s="1"><f>B1</f><v>1.5</v>', BookCell(Kind.NUMBER, 1.5, "", "0.0", True)),
+        ('s="1"><f>B1</f>', BookCell(Kind.UNCACHED, None, "", "0.0", True)),
+        ('s="2"><v>45413</v>', BookCell(Kind.DATE, 45413.0, "2024-05-01", "yyyy")),
+        ('s="2"><f>B1</f><v>0.5</v>', BookCell(Kind.DATE, 0.5, "12:00:00", "yyyy", True)),
+        (f"><f>B1</f><v>1e{'9' * 40}</v>", BookCell(Kind.ERROR, None, "1e" + "9" * 38, "", True)),
+        ('t="e" s="1"><v>#N/A</v>', BookCell(Kind.ERROR, None, "#N/A")),
+        ('t="b"><f>B1</f><v>1</v>', BookCell(Kind.BOOL, None, "TRUE", "", True)),
+        ('t="str" s="1"><f>B1</f><v>a</v>', BookCell(Kind.TEXT, None, "a", "0.0", True)),
+        ('t="inlineStr" s="1"><is><t>a</t></is>', BookCell(Kind.TEXT, None, "a", "0.0")),
+    ],
+)
+def test_a_cell_is_read_whole(cell, expected):
+    assert sheet(f'<c r="A1" {cell}</c>', formats=["", "0.0", "yyyy"]).cells == {(1, 1): expected}
+
+
+def test_days_are_counted_from_1904_where_the_workbook_says_so():
+    content = b'<c r="A1" s="0"><v>1</v></c>'
+    assert read_sheet(content, [], ["yyyy"], is_1904=True).cells[1, 1].written == "1904-01-02"
+
+
+def test_a_text_is_known_by_its_place_in_the_list():
+    def text(index: str):
+        return sheet(f'<c r="A1" t="s"><v>{index}</v></c>', ["a", "b"]).cells[1, 1].written
+
+    assert (text("0"), text("1"), text("0000001")) == ("a", "b", "b")
+    for index in ("2", "-1", "x", "²", "00000001"):
+        with refuses("a damaged workbook"):
+            text(index)
+
+
+def test_what_is_no_number_is_damaged():
+    with refuses("a damaged workbook"):
+        sheet('<c r="A1"><v>one</v></c>')
+
+
+@pytest.mark.parametrize(("number", "text"), [(-0.0, "0"), (1e-7, "1e-07"), (1e300, "1e+300"), (-2.5, "-2.5")])
+def test_a_number_has_its_shortest_text(number, text):
+    assert shortest(number) == text
+
+
+@pytest.mark.parametrize(
+    ("number", "code"),
+    [
+        *((number, "date") for number in ("14", "22", "27", "36", "45", "47", "50", "58")),
+        *((number, "") for number in ("0", "13", "23", "26", "37", "44", "48", "49", "59", "1400000", "²", "x")),
+        *((number, "0%") for number in ("9", "10")),
+        ("164", ""),  # general, by a number of its own
+        ("165", "0.0"),
+    ],
+)
+def test_styles_have_the_code_of_their_number(number, code):
+    own = '<numFmt numFmtId="164" formatCode="General"/><numFmt numFmtId="165" formatCode="0.0"/>'
+    styles = f'<a><xf numFmtId="14"/>{own}<cellXfs><xf numFmtId="{number}"/><xf/></cellXfs><xf numFmtId="14"/></a>'
+    assert read_formats(styles.encode()) == [code, ""]
+
+
+def test_relations_lead_to_members():
+    lines = (
+        '<Relationship Id="a" Type="http://x/worksheet" Target="worksheets/Sheet1.xml"/>'
+        '<Relationship Id="b" Type="http://x/styles" Target="/xl/styles.xml"/>'
+        '<Relationship Id="c" Type="http://x/styles" Target="..\\other.xml"/>'
+        '<Relationship Id="d" Type="http://x/hyperlink" Target="http://x" TargetMode="External"/>'
+    )
+    found = read_relations(f"<a>{lines}<Relationship/></a>".encode(), "xl")
+    assert {key: (r.target, r.type) for key, r in found.items()} == {
+        "a": ("xl/worksheets/sheet1.xml", "worksheet"),
+        "b": ("xl/styles.xml", "styles"),
+        "c": ("other.xml", "styles"),
+        "": ("xl", ""),
+    }
+
+
+@pytest.mark.parametrize(("said", "is_1904"), [("1", True), ("True", True), ("0", False), ("", False), (None, False)])
+def test_a_directory_lists_sheets_names_and_the_date_system(said, is_1904):
+    system = "<workbookPr/>" if said is None else f'<workbookPr date1904="{said}"/>'
+    sheets = '<sheet name="A" r:id="rId1" xmlns:r="x"/><sheet state="hidden"/>'
+    names = '<definedName name="Ans_E">A!$B$1</definedName><definedName>x</definedName>'
+    found = read_directory(f"<a>{system}{sheets}{names}</a>".encode())
+    assert found.sheets == [("A", "visible", "rId1"), ("", "hidden", "")]
+    assert (found.names, found.is_1904) == ({"ans_e": "A!$B$1", "": "x"}, is_1904)
+
+
+def test_shared_texts_are_whole_and_without_pronunciation():
+    runs = "<si><r><t>a</t></r><rPh><t>no</t></rPh><r><t>b</t></r></si><si><t>c</t></si><si/>"
+    assert read_strings(f"<sst>{runs}</sst>".encode()) == ["ab", "c", ""]
 
 
 def test_so_many_cells_and_no_more(monkeypatch):
@@ -60,6 +165,7 @@ def test_so_many_merged_ranges_and_no_more(monkeypatch):
     merges = "".join(f'<mergeCell ref="A{row}:B{row}"/>' for row in (1, 2, 3))
     assert sheet(merges).merges == [(1, 1, 1, 2), (2, 1, 2, 2)]
     assert sheet('<mergeCell ref="C3"/>').merges == [(3, 3, 3, 3)]
+    assert sheet('<mergeCell ref="#REF!:B2"/><mergeCell ref="A1:#REF!"/><mergeCell/>').merges == []
 
 
 def test_texts_are_cut(monkeypatch):

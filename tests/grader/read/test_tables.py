@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import corpus
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from grader.read import ReadRequest, read_workbook
-from grader.read.headings import Heading, match_points, read_heading
-from grader.read.table import read_table
+from grader.kind import Kind
+from grader.read import BookCell, ReadRequest, read_workbook
+from grader.read.headings import Heading, match_points, read_heading, read_headings
+from grader.read.table import other_points, read_table
 
 POINTS = ("foot", "knee", "ball")
 N = 15
@@ -56,6 +59,15 @@ def test_text_of_tracker_that_stayed_in_one_column_is_cut(delimiter):
     assert found.columns["t_s"][2] == 0.2
 
 
+def test_numbers_and_notes_beside_a_pasted_text_stay_what_they_are():
+    """A spreadsheet may have taken one line of a text for a number."""
+    texts = [["xball;yball;t", "a;b"], *([f"{i},5;2,5;{i}", "note; of it"] for i in range(N)), [0.25]]
+    found = table(texts, points=("ball",))
+    assert found.columns["ball_x_m"].tolist() == [*(i + 0.5 for i in range(N)), 0.25]
+    assert np.isnan(found.columns["ball_y_m"][-1])
+    assert found.where == "Tracking"
+
+
 def test_semicolons_go_with_decimal_commas():
     lines = ["t;xball;yball", *(f"0,{i:03};1,2{i:02};-{i},5" for i in range(N)), "the end"]
     found = table([[text] for text in lines], points=("ball",))
@@ -75,6 +87,7 @@ def test_a_comma_is_not_guessed_where_nothing_tells():
     [
         ("frame", Heading("frame")),
         ("Frame #", Heading("frame")),
+        ("Frame no.", Heading("frame")),
         ("t", Heading("t")),
         ("t/s", Heading("t", unit="s")),
         ("Time [ms]", Heading("t", unit="ms")),
@@ -86,6 +99,8 @@ def test_a_comma_is_not_guessed_where_nothing_tells():
         ("left foot y [px]", Heading("y", "left_foot", "px")),
         ("x_ball", Heading("x", "ball")),
         ("xball", Heading("x", "ball")),
+        ("xball left", None),
+        ("left foot y (pixels)", Heading("y", "left_foot", "px")),
         ("x", Heading("x")),
         ("y (ft)", Heading("y", "", "ft")),
         ("pos_x_ball", Heading("x", "ball")),
@@ -135,6 +150,37 @@ def test_points_are_matched_by_name_only(names, expected):
     assert match_points(names, POINTS) == expected
 
 
+def test_a_point_of_two_words_is_matched_whatever_its_case():
+    assert match_points(["Left_Foot", "knee"], ["LEFT_foot", "Knee"]) == {"Left_Foot": "LEFT_foot", "knee": "Knee"}
+
+
+def test_a_point_too_many_does_no_harm():
+    header = ["frame", "ball_x_m", "ball_y_m", "mass_c_x_m", "mass_c_y_m"]
+    found = table([header, *line(1, 2, 3, 4, 5)], points=("ball",))
+    assert (found.flags, found.unnamed) == (frozenset(), ())
+    assert found.columns["mass_c_x_m"][1] == 4
+
+
+def test_points_of_others_are_listed_in_order():
+    columns = ["frame", "t_s", "ball_x_m", "mass_b_x_px", "mass_a_x_m", "mass_a_y_m"]
+    assert other_points(columns, ["ball"]) == ["mass_a", "mass_b"]
+
+
+@pytest.mark.parametrize(
+    ("above", "point"),
+    [
+        ([], "point"),
+        ([None, "Left foot"], "left_foot"),
+        ([None, "--"], "point"),
+        ([None, "n" * 41], "n" * 40),
+        ([None, None, None, "right of them"], "point"),
+    ],
+)
+def test_columns_without_a_name_have_the_one_above_them(above, point):
+    found = table([above, ["t", "x", "y"], *line(1, 2, 3)], points=())
+    assert set(found.columns) == {"t_s", f"{point}_x_m", f"{point}_y_m"}
+
+
 def test_an_empty_tracking_sheet_does_not_hide_the_table_beside_it():
     header = ["frame", "t_s", "ball_x_m", "ball_y_m"]
     found = table([header], **{"my data": [header, *line(1, 0.1, 2, 3)]})
@@ -148,6 +194,8 @@ def test_columns_that_contradict_each_other_are_flagged():
     assert table([header, *line(1, 2, 3, 4)]).flags == {"columns-twice"}
     twice = table([["t", "ball_x_m", "ball_y_m", "ball_x_cm", "ball_y_cm"], *line(1, 2, 3, 200, 300)])
     assert twice.flags == frozenset()
+    for difference, flags in ((5e-7, set()), (5e-6, {"columns-twice"})):
+        assert table([header, *line(1, 2, 3, 1 + difference)]).flags == flags
 
 
 def test_what_stands_in_the_place_of_numbers_is_flagged():
@@ -201,6 +249,15 @@ def test_formulas_that_were_never_worked_out_have_a_flag_of_their_own():
     changed = markup.replace('<c r="C4" t="n"><v>4</v>', '<c r="C4"><f>A1</f>')
     book = read_workbook(ReadRequest("w", corpus.with_parts(data, **{"xl/worksheets/sheet1.xml": changed.encode()})))
     assert read_table(book, POINTS).flags == {"uncached-in-tracking"}
+
+
+@pytest.mark.parametrize(("is_visible", "flags"), [(True, {"dates-in-tracking"}), (False, frozenset())])
+def test_a_number_shown_as_a_date_is_none_and_a_hidden_sheet_no_table(is_visible, flags):
+    data = corpus.Dialect().write({"Tracking": [["frame", "ball_x_m", "ball_y_m"], *line(1, 2, 3)]})
+    book = read_workbook(ReadRequest("w", data))
+    cells = {**book.sheets[0].cells, (3, 2): BookCell(Kind.DATE, 45413.0, "2024-05-01")}
+    found = read_table(replace(book, sheets=(replace(book.sheets[0], cells=cells, is_visible=is_visible),)))
+    assert (bool(found.columns), found.flags) == (is_visible, flags)
 
 
 def test_rows_without_any_position_are_left_out():
@@ -264,6 +321,26 @@ def test_commas_and_points_in_one_table_are_not_guessed():
     found = table([["frame", "t_s", "ball_x_m", "ball_y_m"], *rows])
     assert np.isnan(found.columns["ball_x_m"][0])
     assert found.flags == {"text-in-tracking"}
+
+
+def test_a_pair_is_kept_where_nothing_else_stands():
+    assert set(read_headings({1: "ball x", 2: "ball y"}, {})) == {1, 2}
+
+
+def test_one_axis_alone_is_left_out():
+    header = ["frame", "ball_x_m", "ball_y_m", "foot_x_m", "knee_y_m"]
+    assert set(table([header, *line(1, 2, 3, 4, 5)]).columns) == {"frame", "ball_x_m", "ball_y_m"}
+
+
+def test_numbers_or_clocks_alone_are_no_table_and_hide_none():
+    assert table(line(1, 2, 3)).columns == {}
+    pasted = [["t;x;y"], *([f"{i};{i};{i}"] for i in range(N))]
+    assert set(table([["frame", "step", "t"], [], *pasted], points=()).columns) == {"t_s", "point_x_m", "point_y_m"}
+
+
+def test_a_long_heading_is_cut():
+    header = ["frame", "x_" + "n" * 79, "y_" + "n" * 79]
+    assert set(table([header, *line(1, 2, 3)], points=()).columns) == {"frame", f"{'n' * 78}_x_m", f"{'n' * 78}_y_m"}
 
 
 def test_x_without_y_is_no_position():

@@ -224,6 +224,14 @@ def test_the_process_limits_itself(monkeypatch, hard, memory):
     assert kept == hard
 
 
+def test_a_file_has_its_seconds_on_top_of_what_the_process_has_used(monkeypatch):
+    fake = FakeLimits()
+    monkeypatch.setattr(worker_module, "resource", fake)
+    monkeypatch.setattr(worker_module.os, "times", lambda: (1.5, 2.0, 99.0, 99.0, 99.0))
+    worker_module.limit_cpu(5)
+    assert fake.set == {fake.RLIMIT_CPU: (9, -1)}
+
+
 @pytest.mark.parametrize("fake", [FakeLimits(refuses=True), None])
 def test_a_system_without_limits_reads_all_the_same(monkeypatch, fake):
     monkeypatch.setattr(worker_module, "resource", fake)
