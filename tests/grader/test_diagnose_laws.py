@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from assignments.load import assignment_ids, load_assignment
 from assignments.model import AnswerKey, Assignment, Question
 from assignments.textbook import textbook_of
-from assignments.theory import Textbook, promised, value_of
+from assignments.theory import Textbook, by_code, promised, value_of
 from assignments.variants import draw_variant
 from grader.diagnose import (
     Candidate,
@@ -196,6 +196,77 @@ def test_a_group_that_is_near_on_the_truth_is_told_as_one() -> None:
     }
     near = {code for code, distance in distances.items() if distance <= 0.03}
     assert set(found.codes if found else ()) == (near if len(near) <= 3 else set())
+
+
+def told_of(monkeypatch, formulas, value: float, tolerance: float = 0.02, *, has_own_numbers: bool = False):
+    """Diagnose an e of two pucks whose only mistakes have these formulas; codes are named a, b, c, d in their order."""
+    desk = desk_of("two-pucks")
+    usual = desk.book.mistakes_about("e")[: len(formulas)]
+    made = [replace(mistake, formula=formula) for mistake, formula in zip(usual, formulas, strict=True)]
+    monkeypatch.setattr("grader.diagnose.textbook_of", lambda _: replace(desk.book, mistakes=by_code(*made)))
+    questions = {**desk.questions, "e": replace(desk.questions["e"], tolerance=tolerance)}
+    written = {**(desk.key.values if has_own_numbers else {}), "e": value}
+    found = diagnose_answer("e", desk.submission(written), desk.key, questions)
+    letters = dict(zip((mistake.code for mistake in made), "abcd", strict=False))
+    return found and "".join(letters[code] for code in found.codes)
+
+
+@pytest.mark.parametrize(
+    ("offered", "value", "told"),
+    [
+        ([2.0], 2.0, "a"),
+        ([1.0], 1.0, "a"),
+        ([2.0], 2.05, "a"),
+        ([2.0], 2.07, None),
+        ([2.06, 2.0, 2.02], 2.0, "bca"),
+        ([2.0, 2.01, 2.02, 2.03], 2.0, None),
+        ([2.0 / 1.05, 2.0 / 1.02], 2.0, "ba"),
+        ([2.0 / 1.07, 2.0 / 1.02], 2.0, "b"),
+        ([2.0 / 1.025, 2.0 / 1.005], 2.0, "ba"),
+        ([0.0, math.nan, 2.0], 2.0, "c"),
+        ([1.9, math.inf, 2.0], 2.0, "c"),
+    ],
+)
+def test_on_the_truth_all_within_three_times_the_nearest_are_told_unless_too_many_are(
+    monkeypatch, offered, value: float, told: str | None
+) -> None:
+    formulas = [lambda _, number=number: number for number in offered]
+    assert told_of(monkeypatch, formulas, value) == told
+
+
+@pytest.mark.parametrize(("tolerance", "told"), [(0.24, "a"), (0.26, None)])
+def test_what_lies_within_twice_the_tolerance_of_the_truth_is_told_nothing(monkeypatch, tolerance, told) -> None:
+    e = desk_of("two-pucks").key.values["e"]
+    assert told_of(monkeypatch, [lambda _: 1.5 * e], 1.5 * e, tolerance) == told
+
+
+def test_at_the_edge_of_twice_the_tolerance_nothing_is_told(monkeypatch) -> None:
+    """From e to -e are 2 e, with all its digits."""
+    e = desk_of("two-pucks").key.values["e"]
+    assert told_of(monkeypatch, [lambda _: -e], -e, 1.0) is None
+    assert told_of(monkeypatch, [lambda _: -e], -e, 0.999) == "a"
+
+
+@pytest.mark.parametrize(("count", "told"), [(1, "a"), (3, "abc"), (4, None)])
+def test_of_own_numbers_too_no_more_than_three_are_told(monkeypatch, count: int, told: str | None) -> None:
+    formulas = [lambda _: 2.125001] * count
+    assert told_of(monkeypatch, formulas, 2.125001, has_own_numbers=True) == told
+
+
+@pytest.mark.parametrize(
+    ("name", "quantity", "near", "far"), [("two-pucks", "phi", 1.045, 1.055), ("ballistic-pendulum", "I", 1.075, 1.085)]
+)
+def test_on_the_truth_each_quantity_has_its_own_reach(monkeypatch, name, quantity, near: float, far: float) -> None:
+    desk = desk_of(name)
+    made = replace(desk.book.mistakes_about(quantity)[0], formula=lambda _: 99.0)
+    monkeypatch.setattr("grader.diagnose.textbook_of", lambda _: replace(desk.book, mistakes=by_code(made)))
+
+    def codes(value: float):
+        found = diagnose_answer(quantity, desk.submission({quantity: value}), desk.key, desk.questions)
+        return found and found.codes
+
+    assert codes(99.0 * near) == (made.code,)
+    assert codes(99.0 * far) is None
 
 
 def test_codes_that_fit_to_the_digits_go_before_those_within_half_a_percent() -> None:

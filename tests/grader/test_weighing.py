@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import asdict, replace
 
 import pytest
 from hypothesis import given, settings
@@ -24,7 +24,7 @@ def cell(value: float, half_unit: float) -> Stated:
 
 
 def way(numbers: ImpactNumbers = WRITTEN, half_units=HALF) -> OwnNumbers:
-    return OwnNumbers(numbers, half_units)
+    return OwnNumbers(asdict(numbers), lambda values: ImpactNumbers(**values), half_units)
 
 
 def of_v1(factor: float, shift: float = 0.0):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import pytest
@@ -414,6 +415,13 @@ def test_an_angle_in_degrees_is_named(pendulum, slip):
     assert pendulum.judge("theta_max", {"theta_max": degrees}, {"theta_max": "deg"})["value"].mistake == ""
     assert pendulum.value("theta_max", degrees * 1.05).mistake == ""
     assert pendulum.value("theta_max", degrees / 1.05).mistake == ""
+
+
+def test_an_angle_in_degrees_may_be_off_by_the_whole_tolerance(pendulum):
+    """An angle of 0 is held with a tolerance of 30 degrees, to the last digit: 30 written as it is."""
+    bench = pendulum.with_question("theta_max", floor=math.radians(30.0)).with_key(values={"theta_max": 0.0})
+    for degrees, code in ((30.0, "PA4"), (-30.0, "PA4"), (30.000001, "")):
+        assert bench.value("theta_max", degrees, factors=()).mistake == code
 
 
 @pytest.mark.parametrize("question", ["omega1", "v_b2"])

@@ -9,8 +9,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from grader.judging import Tolerance, judge_measured, tolerance_of, truth_of
+from grader.judging import Tolerance, judge_measured, judge_value, tolerance_of, truth_of
 from grader.model import Outcome
+from grader.stated import Stated
 from grader.tracked import FromTable
 from vml_course.errors import InputError
 from vml_course.model.units import UNITS
@@ -191,6 +192,14 @@ def test_a_value_as_near_as_clicks_allow_is_half_right(kick):
     assert (finding.outcome, finding.points) == (Outcome.PARTIAL, 0.5 * finding.out_of)
     assert "As near as points clicked by hand allow, but not within 2 %" in finding.message
     assert kick.judge("omega1", off)["value"].outcome is Outcome.WRONG
+
+
+@pytest.mark.parametrize(("value", "points"), [(7.0, 4.5), (1.0, 4.5), (7.000001, 0.0), (0.999999, 0.0)])
+def test_clicks_reach_as_far_as_they_may_leave_a_value_off(plain, value, points):
+    stated = Stated(value, 0.0, str(value), unit_given=True)
+    finding = judge_value(plain.asked("v_b2", factors=()), stated, 9.0, spread=3.0)
+    assert finding.points == points
+    assert ("As near as points clicked by hand allow" in finding.message) == (points > 0)
 
 
 def test_remarks_follow_the_verdict(plain):

@@ -10,8 +10,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from grader.checks.tracking import tracking
+from grader.flags import FOR_STUDENT
 from grader.grade import TRACKING
 from grader.model import Outcome
+from grader.read.flags import Flag
 from grader.smoothed import smoothing_of
 from grader.tracked import OUR_FAILURE, FromTable
 from grader.trajectory import TrajectoryFit, fit_trajectory
@@ -19,10 +21,10 @@ from grader.trajectory import TrajectoryFit, fit_trajectory
 FAULTS = {"swapped": (), "y_down": False, "x_left": False, "scale_ratio": 1.0, "lag_frames": 0.0}
 
 
-def judged(bench, points=10.0, columns=None, **changes):
+def judged(bench, points=10.0, columns=None, flags=(), **changes):
     """Judge a table whose fit has these faults."""
     fit = replace(bench.table.fit, **{**FAULTS, "rms_px": 0.5, **changes})
-    submission = replace(bench.submission(), tracking=columns or {})
+    submission = replace(bench.submission(), tracking=columns or {}, flags=flags)
     asked = bench.with_table(fit=fit).asked("e")
     (finding,) = tracking(replace(asked, question=replace(TRACKING, points=points), submission=submission))
     return finding
@@ -169,11 +171,61 @@ def test_a_wrong_clock_is_told_of_a_hopeless_table_too(kick):
     assert judged(kick, rms_px=9.0, columns=clock(30.0)).mistake == "K2"
 
 
+# ---------------------------------------------------------------- its columns and cells
+
+
+def columns_of(*points, unit="m"):
+    return {f"{point}_{axis}_{unit}": np.zeros(30) for point in points for axis in "xy"}
+
+
+@pytest.mark.parametrize(
+    ("columns", "words"),
+    [
+        (
+            columns_of("foot", "knee", "globe"),
+            "called globe; the assignment's are ball. Call the columns ball_x_m, ball",
+        ),
+        (
+            columns_of("foot", "globe", "leg"),
+            "called globe, leg; the assignment's are knee, ball. Call the columns knee_x",
+        ),
+        (columns_of(*"gfedcba"), "called a, b, c, d, e; the assignment's are foot, knee, ball."),
+        (columns_of("foot", "globe") | {"knee_x_m": np.zeros(30)}, "called globe; the assignment's are knee, ball."),
+        (columns_of("foot", "knee", "ball", unit="px"), "has foot, knee, ball in pixels only"),
+        (columns_of("foot", "knee") | columns_of("ball", unit="px"), "has ball in pixels only"),
+    ],
+)
+def test_columns_that_are_called_otherwise_are_told_and_left_to_a_person(kick, columns, words):
+    finding = judged(kick, columns=columns)
+    assert (finding.outcome, finding.points, finding.out_of) == (Outcome.UNSURE, 10.0, 10.0)
+    assert words in finding.message
+    assert finding.message.startswith("Your points lie 0.5 px (root mean square) from the true ones. The table has ")
+    missing = replace(kick.submission(), tracking=columns)
+    assert words in without(kick, FromTable(), 10.0, submission=missing).message
+
+
+def test_a_point_more_than_asked_for_is_no_fault(kick):
+    finding = judged(kick, columns=columns_of("foot", "knee", "ball", "hip"))
+    assert (finding.outcome, finding.message.count(".")) == (Outcome.RIGHT, 2)
+
+
+def test_what_its_cells_hold_is_told_where_a_table_is_not_right(kick):
+    flags = (Flag.MACROS, Flag.TEXT_IN_TRACKING, Flag.UNNAMED_POINTS)
+    text = FOR_STUDENT[Flag.TEXT_IN_TRACKING]
+    assert text not in judged(kick, flags=flags).message
+    told = judged(kick, rms_px=3.0, flags=flags).message
+    assert told.endswith(f"stays within 1 px. {text}")
+    assert FOR_STUDENT[Flag.MACROS] not in told
+    missing = without(kick, FromTable(), 0.0, submission=replace(kick.submission(), flags=flags))
+    assert missing.message.endswith(f"says how to paste yours. {text}")
+
+
 # ---------------------------------------------------------------- without a table
 
 
-def without(bench, table, points):
-    (finding,) = tracking(replace(bench.asked("e"), question=replace(TRACKING, points=points), table=table))
+def without(bench, table, points, **changes):
+    asked = replace(bench.asked("e"), question=replace(TRACKING, points=points), table=table, **changes)
+    (finding,) = tracking(asked)
     return finding
 
 
