@@ -110,7 +110,7 @@ UNITS = {
     **dict.fromkeys(["m", "M"], (0, 0, 1)),
     **dict.fromkeys(["L", "D", "R", "b", "c", "d", "mark"], (1, 0, 0)),
     **dict.fromkeys(["a", "g"], (1, -2, 0)),
-    **dict.fromkeys(["theta", "tilt_rad", "k"], PLAIN),
+    **dict.fromkeys(["theta", "tilt_rad", "k", "own_phi"], PLAIN),
     "S": (-1, 0, 0),
 }
 CONCLUDED_UNITS = {"I": INERTIA, "loss": ENERGY, "v1": SPEED, "s2": SPEED, "M": (0, 0, 1)}
