@@ -61,9 +61,9 @@ def enrol_all(
     """
     directory = _Directory(students_of(connection))
     arrivals: list[tuple[int, Status]] = []
-    names = [folded(person.name) for person in people]
+    names = [_as_spoken(person.name) for person in people]
     for person in people:
-        known, by_name = directory.find(person, source, is_alone=names.count(folded(person.name)) == 1)
+        known, by_name = directory.find(person, source, is_alone=names.count(_as_spoken(person.name)) == 1)
         at = _add(connection) if known is None else known
         _remember(connection, at, person)
         arrivals.append((at, "new" if known is None else "linked" if by_name else "known"))
@@ -131,7 +131,7 @@ class _Directory:
     def add(self, at: int, person: Enrolled) -> None:
         """Add a student."""
         self._strong[at] = dict(person.strong)
-        self._by_name.setdefault(folded(person.name), []).append(at)
+        self._by_name.setdefault(_as_spoken(person.name), []).append(at)
         for kind, value in person.strong.items():
             self._by_strong[kind, folded(value)] = at
 
@@ -147,7 +147,7 @@ class _Directory:
             raise RosterError(source, f"one student for {person.name!r}", f"{len(fits)} of the gradebook", hint)
         if fits:
             return fits.pop(), False
-        same = self._by_name.get(folded(person.name), [])
+        same = self._by_name.get(_as_spoken(person.name), [])
         if len(same) == 1 and is_alone and not self._contradicts(same[0], lasting):
             return same[0], True
         return None, False
@@ -155,6 +155,17 @@ class _Directory:
     def _contradicts(self, at: int, lasting: Mapping[str, str]) -> bool:
         known = self._strong[at]
         return any(kind in known and folded(known[kind]) != folded(value) for kind, value in lasting.items())
+
+
+def _as_spoken(name: str) -> str:
+    """Return a name for comparison; platforms write `Doe, Jane` or `Jane Doe`.
+
+    >>> _as_spoken("Doe, Jane") == _as_spoken("Jane  Doe")
+    True
+    """
+    last, comma, first = name.partition(",")
+    is_turned = bool(comma and first.strip()) and "," not in first
+    return folded(f"{first} {last}" if is_turned else name)
 
 
 def _add(connection: Connection) -> int:

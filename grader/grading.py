@@ -12,10 +12,20 @@ from pathlib import Path
 from assignments.course import Course
 from grader.gradebook import Gradebook
 from grader.marker import FEEDBACK, USUAL, Graded, Marker, Progress, Wanted, Whose, silent, write_class_page
-from grader.receipts import Status
+from grader.receipts import WAITING, Status
 from vml_course.errors import FileMissingError
 
-__all__ = ["FEEDBACK", "Graded", "Wanted", "Whose", "grade_again", "grade_collected", "grade_files", "write_class_page"]
+__all__ = [
+    "FEEDBACK",
+    "Graded",
+    "Wanted",
+    "Whose",
+    "grade_again",
+    "grade_collected",
+    "grade_files",
+    "waiting_files",
+    "write_class_page",
+]
 
 
 def grade_files(
@@ -70,6 +80,12 @@ def grade_collected(
     As `grade_files`.
     """
     return _grade_kept(course, "collected", assignment_id, wanted, progress or silent)
+
+
+def waiting_files(course: Course, assignment_id: str = "") -> int:
+    """Return how many files came in that nobody could grade: a person says whose they are, or asks for others."""
+    with Gradebook.open(course) as book:
+        return sum(len(book.receipts(status, assignment_id)) for status in WAITING)
 
 
 def grade_again(

@@ -113,7 +113,7 @@ def grade(
     Example: vml grade returned/*.xlsx --course dynamics-2026
     """
     from assignments.load import load_assignment
-    from grader.grading import Wanted, Whose, grade_again, grade_collected, grade_files
+    from grader.grading import Wanted, Whose, grade_again, grade_collected, grade_files, waiting_files
 
     opened = the_course(course)
     for named in filter(None, (assignment, again)):
@@ -134,6 +134,11 @@ def grade(
         print_json([{**asdict(g), "file": str(g.file), "feedback": g.feedback or None} for g in graded])
     else:
         _print_graded(graded, opened.shelf.place())
+        waiting = 0 if files or again else waiting_files(opened, assignment)
+        if waiting:
+            typer.echo(
+                f"{waiting} more came in that nobody could grade: the class page says why, --whose settles whose."
+            )
     if any(item.needs_attention for item in graded):
         raise typer.Exit(1)
 

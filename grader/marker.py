@@ -28,7 +28,7 @@ from grader.marking import Marked, MarkOrder, ReadOrder, Understood, mark, under
 from grader.model import Grade
 from grader.read import Book
 from grader.read.locate import Claims, claims_of
-from grader.receipts import Arrived, Receipt, handed_in_at
+from grader.receipts import WAITING, Arrived, Receipt, handed_in_at
 from grader.signed import is_signed
 from vml_course.errors import VmlError
 from vml_course.executors import Crew, each_done, open_executor
@@ -136,7 +136,7 @@ def write_class_page(
 
 
 def _ungraded(gradebook: Gradebook, assignment_id: str) -> Iterator[tuple[str, str]]:
-    for status in ("unreadable", "unmatched", "conflict", "too large"):
+    for status in WAITING:
         for receipt in gradebook.receipts(status, assignment_id):
             whose = f" ({receipt.arrived.pid})" if receipt.arrived.pid else ""
             yield f"{receipt.arrived.name}{whose}", receipt.arrived.reason

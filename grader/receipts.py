@@ -14,6 +14,9 @@ from grader.events import note, now
 
 Status = Literal["collected", "graded", "unreadable", "unmatched", "conflict", "too large"]
 
+WAITING: tuple[Status, ...] = ("unreadable", "unmatched", "conflict", "too large")
+"""What a person has to look at."""
+
 
 @dataclass(frozen=True)
 class Arrived:

@@ -74,6 +74,12 @@ def test_a_copy_that_comes_first_does_not_hide_the_file_of_its_owner(term) -> No
     assert [item.pid for item in grade_collected(term.course, SLUG)] == [term.pids[0]]
 
 
+def test_grading_says_how_many_files_wait_for_a_person(term, capsys) -> None:
+    collect(term.course, SLUG, term.download(**{"a_902_1_lab.xlsx": term.file(0), "b_901_2_lab.xlsx": term.file(0)}))
+    assert run(["grade", "--course", str(term.course.folder)]) == 0
+    assert "1 more came in that nobody could grade" in capsys.readouterr().out
+
+
 def test_a_copy_that_comes_second_is_said_to_be_somebody_elses(term) -> None:
     download = term.download(**{"a_901_1_lab.xlsx": term.file(0), "b_902_2_lab.xlsx": term.file(0)})
     _, copy = collect(term.course, SLUG, download)

@@ -356,3 +356,10 @@ def test_removing_names_says_where_others_are_left(tmp_path: Path, capsys) -> No
     assert "the names of 3 students" in said
     assert "Names are still in roster.csv" in said
     assert "Names are still in exports/soccer-kick-csv.csv" in said
+
+
+@pytest.mark.parametrize(("first", "then"), [("Doe, Jane", "Jane Doe"), ("Jane Doe", "Doe, Jane")])
+def test_the_same_name_written_last_name_first_is_the_same_person(book, first: str, then: str) -> None:
+    (known,) = book.take_in([Enrolled(first, "", {"canvas_id": "1"})])
+    (again,) = book.take_in([Enrolled(then, "", {"moodle_participant": "48213"})])
+    assert (again.status, again.student.pid) == ("linked", known.student.pid)
