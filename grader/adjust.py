@@ -63,7 +63,7 @@ def decided(grade: Grade, adjustments: Iterable[Adjustment]) -> Grade:
 def _decided(finding: Finding, item: Adjustment, aspects: tuple[Finding, ...]) -> Finding:
     """Return what a person decided of one aspect; the first one says why."""
     out_of = sum(one.out_of for one in aspects)
-    points = item.points * (finding.out_of / out_of if out_of else 0.0)
+    points = item.points * finding.out_of / out_of if out_of else 0.0
     message = f"A person decided: {item.reason}" if finding is aspects[0] else ""
     return Finding(finding.question_id, finding.aspect, _outcome(item.points, out_of), points, finding.out_of, message)
 

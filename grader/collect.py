@@ -131,7 +131,7 @@ class _Desk:
         self._course, self._assignment, self._book = course, assignment_id, book
         self._platform, self._received, self._dry_run = platform, received, dry_run
         self._known = _by_identity(book.students())
-        self._kinds = {(kind, pid): value for (kind, value), pid in self._known.items()}
+        self._numbered = {(kind, pid) for (kind, _), pid in self._known.items()}
         self._seen: dict[tuple[str, str], str] = {}
 
     def take(self, file: _File) -> Collected:
@@ -165,7 +165,7 @@ class _Desk:
         if by_platform and by_platform != by_code:
             message = f"The workbook is {by_code}'s, the platform says {by_platform}."
             return Collected(file.name, "conflict", by_platform, platform, message)
-        if named and not by_platform and (named.kind, by_code) in self._kinds:
+        if named and not by_platform and (named.kind, by_code) in self._numbered:
             message = (
                 f"The workbook is {by_code}'s, whose {named.kind} is another than {named.value}: who handed it in?"
             )

@@ -49,8 +49,7 @@ def standing(row: Row | None, terms: Terms, due: str, *, is_over: bool) -> Stand
     """
     used = row.attempts if row else 1
     left = max(terms.attempts - used, 0) if terms.attempts else None
-    sentences = [f"Due: {due}."] if due else []
-    sentences += [] if is_over or not due else [late_text(terms.late)]
+    sentences = [f"Due: {due}.", "" if is_over else late_text(terms.late)] if due else []
     sentences += _lateness(row, terms) if row else []
     sentences.append(_attempts(used, left, terms, is_over=is_over))
     if row and row.ignored:

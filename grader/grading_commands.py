@@ -25,6 +25,13 @@ ReceivedOption = Annotated[
     dt.datetime | None,
     typer.Option(help="When all of it was handed in, where nobody says; it counts as in time if not given."),
 ]
+ShowTruthOption = Annotated[
+    bool | None,
+    typer.Option(
+        "--show-truth/--hide-truth",
+        help="Show students the true values and curves. If not given: when nobody can hand in any more.",
+    ),
+]
 
 
 def register(app: typer.Typer) -> None:
@@ -84,13 +91,7 @@ def grade(
     again: Annotated[
         str, typer.Option(metavar="ID", help="Grade everything of this assignment anew; release says what it changes.")
     ] = "",
-    show_truth: Annotated[
-        bool | None,
-        typer.Option(
-            "--show-truth/--hide-truth",
-            help="Show students the true values and curves. If not given: when nobody can hand in any more.",
-        ),
-    ] = None,
+    show_truth: ShowTruthOption = None,
     received: ReceivedOption = None,
     workers: Annotated[
         int,
@@ -167,6 +168,7 @@ def release(
     assignment: AssignmentArgument,
     course: CourseOption,
     dry_run: Annotated[bool, typer.Option("--dry-run", help="Only say what would change.")] = False,
+    show_truth: ShowTruthOption = None,
     as_json: JsonOption = False,
 ) -> None:
     """Fix what counts now, for students and platform: exports are made from the newest release.
@@ -178,7 +180,14 @@ def release(
     from grader.usecases import release as release_now
 
     with resumable(), progress("writing pages") as show:
-        changes = release_now(the_course(course), assignment, who=getpass.getuser(), dry_run=dry_run, progress=show)
+        changes = release_now(
+            the_course(course),
+            assignment,
+            who=getpass.getuser(),
+            dry_run=dry_run,
+            show_truth=show_truth,
+            progress=show,
+        )
     if as_json:
         print_json([asdict(change) for change in changes])
         return

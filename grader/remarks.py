@@ -28,16 +28,18 @@ def remarks_on_number(
     is_near : bool
         Whether the value is of the size asked for: digits of pixels or of another clock say nothing.
     """
-    sd = key.expected_sd.get(question.id, 0.0)
-    if not is_near:
-        pass
-    elif stated.half_unit > half_width:
+    if is_near:
+        yield from _digits(stated, key.expected_sd.get(question.id, 0.0), half_width)
+    if stated.uncertainty:
+        yield _uncertainty(stated.value - key.values[question.id], stated.uncertainty, half_width)
+
+
+def _digits(stated: Stated, sd: float, half_width: float) -> Iterator[str]:
+    if stated.half_unit > half_width:
         yield "It is rounded too coarsely for the tolerance: give one digit more."
     elif 0 < 2 * TOO_FINE * stated.half_unit < sd:
         digits = significant_digits(stated.value, sd)
         yield f"Its last digits say more than the video can tell: {digits} significant digits are enough."
-    if stated.uncertainty:
-        yield _uncertainty(stated.value - key.values[question.id], stated.uncertainty, half_width)
 
 
 def z_score(stated: Stated, truth: float) -> float:

@@ -15,6 +15,8 @@ from grader.marker import Marker, Progress, Wanted, silent, write_class_page
 from grader.releasing import Change, release_grades
 from vml_course.errors import InputError
 
+ON_ALL_CORES = Wanted(workers=0)
+
 
 def set_points(course: Course, assignment_id: str, pid: str, adjustment: Adjustment) -> tuple[int, Row]:
     """Record what a person decided, and write the class page and the student's anew.
@@ -40,18 +42,29 @@ def set_points(course: Course, assignment_id: str, pid: str, adjustment: Adjustm
     return attempt, row
 
 
-def _rewrite_pages(course: Course, gradebook: Gradebook, rows: Sequence[Row], progress: Progress = silent) -> None:
-    wanted = Wanted(workers=0)
+def _rewrite_pages(
+    course: Course,
+    gradebook: Gradebook,
+    rows: Sequence[Row],
+    progress: Progress = silent,
+    wanted: Wanted = ON_ALL_CORES,
+) -> None:
     with wanted.crew_for(len(rows)) as crew:
         Marker(course, gradebook, crew, wanted).rewrite_pages(rows, progress)
 
 
 def release(
-    course: Course, assignment_id: str, *, who: str, dry_run: bool = False, progress: Progress = silent
+    course: Course,
+    assignment_id: str,
+    *,
+    who: str,
+    dry_run: bool = False,
+    show_truth: bool | None = None,
+    progress: Progress = silent,
 ) -> tuple[Change, ...]:
     """Release what counts now, and write every page anew: what students read is what was released.
 
-    True values appear on the pages when nobody can hand in any more.
+    True values appear on the pages when nobody can hand in any more, unless `show_truth` says otherwise.
 
     Raises
     ------
@@ -60,7 +73,7 @@ def release(
     changes = release_grades(course, assignment_id, who=who, dry_run=dry_run)
     if not dry_run:
         with Gradebook.open(course) as gradebook:
-            _rewrite_pages(course, gradebook, gradebook.rows(assignment_id), progress)
+            _rewrite_pages(course, gradebook, gradebook.rows(assignment_id), progress, Wanted(show_truth, workers=0))
             write_class_page(course, gradebook, load_assignment(assignment_id, course.assignments))
     return changes
 

@@ -358,6 +358,8 @@ def test_a_release_writes_true_values_when_the_time_is_over(term) -> None:
     grade_collected(term.course, SLUG)
     assert "True value" not in _page(term)
     term.say("[assignment.soccer-kick]\ndue = 2026-05-01T22:00:00\n")
+    release(term.course, SLUG, who="ann", show_truth=False)
+    assert "True value" not in _page(term)
     release(term.course, SLUG, who="ann")
     assert "True value" in _page(term)
 
