@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import pytest
 
-from assignments.terms import Terms
+from assignments.terms import Late, Terms
 from grader.counting import standing
 
 
@@ -83,3 +84,14 @@ def test_attempts_that_do_not_count_are_named():
     )
     said = words(row(3, ignored=(2, 3)), terms())
     assert said.endswith("Attempts 2, 3 came too late, or were too many: they do not count.")
+
+
+LATE = Late("fixed", share=0.1)
+COSTS = "Late work loses 10 % of its points."
+
+
+def test_what_lateness_will_cost_is_told_while_a_due_date_can_be_missed():
+    allowed = replace(terms(), late=LATE)
+    assert words(row(), allowed, due="Friday").startswith(f"Due: Friday. {COSTS} You may")
+    assert words(row(), allowed, due="Friday", is_over=True).startswith("Due: Friday. 1 attempt handed in")
+    assert COSTS not in words(row(), allowed)

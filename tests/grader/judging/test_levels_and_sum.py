@@ -13,9 +13,11 @@ from assignments.model import Question
 from grader import checks
 from grader import grade as grading
 from grader.checks import check_named, check_names, explanation_of
+from grader.flags import FOR_PERSON, FOR_PERSON_OF_TABLE
 from grader.grade import TRACKING, grade, in_order
 from grader.levels import LEVELS, levels_of
 from grader.model import Answer, Diagnosis, Finding, Grade, Kind, Outcome, Submission, overall
+from grader.read.flags import Flag
 from grader.tracked import OUR_FAILURE, FromTable
 from vml_course.errors import UnknownNameError
 
@@ -205,6 +207,15 @@ def test_a_person_is_told_why_to_look(quick, kick):
     assert result.reasons[1] == "The workbook carries macros."
     assert result.reasons[2] == "Unsure about v_b2, e, I."
     assert len(result.reasons) == 3
+
+
+def test_of_flags_of_a_table_a_person_is_told_only_where_it_is_not_right(quick, kick):
+    submission = replace(kick.submission(), flags=(Flag.TEXT_IN_TRACKING, Flag.HIDDEN_SHEET))
+    hidden, text = FOR_PERSON[Flag.HIDDEN_SHEET], FOR_PERSON_OF_TABLE[Flag.TEXT_IN_TRACKING]
+    assert quick(submission=submission).reasons == (hidden,)
+    poor = quick(submission=submission, fit=replace(kick.table.fit, rms_px=3.0))
+    assert by_aspect(poor, "tracking")["table"].outcome is Outcome.PARTIAL
+    assert poor.reasons == (text, hidden)
 
 
 def test_a_workbook_without_answers_is_empty_and_says_which_kind(quick, kick):

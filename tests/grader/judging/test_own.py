@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from types import SimpleNamespace
 
 import pytest
@@ -141,3 +142,9 @@ def test_another_arm_leaves_the_velocities_and_their_digits(kick):
     assert moved.numbers == type(first.numbers)(**{**vars(first.numbers), "L": 2.0})
     assert moved.half_units == first.half_units
     assert first.numbers.L == 0.5
+
+
+def test_pixels_a_metre_are_those_of_the_rendering_where_the_key_knows_it(kick):
+    assert true_numbers(kick.with_key(truth={"px_per_m": 400.0}, values={"px_per_m": 401.0}).key).S == 400.0
+    asked_only = replace(kick.key, truth={}, values={**kick.truth, "px_per_m": 401.0})
+    assert true_numbers(asked_only).S == 401.0
