@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from assignments.terms import Calendar, Late, moment_text
 
-_COUNTS = {
-    "newest": "the newest counts",
-    "best": "the best counts",
-    "first": "the first counts",
-    "mean": "their mean counts",
+COUNTS = {
+    "newest": "the newest attempt counts",
+    "best": "the best attempt counts",
+    "first": "the first attempt counts",
+    "mean": "the mean of all attempts counts",
 }
+"""Which attempt counts, by the word of the terms."""
 
 
 def late_text(late: Late) -> str:
@@ -45,6 +46,6 @@ def closes_text(calendar: Calendar, assignment_id: str, student: str = "") -> st
 def terms_text(calendar: Calendar, assignment_id: str, student: str = "") -> tuple[str, ...]:
     """Return all that a student has to know, one sentence each; nothing where there are no terms."""
     terms, due = calendar.terms_of(assignment_id, student), calendar.due_text(assignment_id, student)
-    attempts = {0: "", 1: "One attempt."}.get(terms.attempts, f"{terms.attempts} attempts; {_COUNTS[terms.counts]}.")
+    attempts = {0: "", 1: "One attempt."}.get(terms.attempts, f"{terms.attempts} attempts; {COUNTS[terms.counts]}.")
     dues = (f"Due {due}.", late_text(terms.late)) if due else ()
     return tuple(filter(None, (*dues, closes_text(calendar, assignment_id, student), attempts)))

@@ -5,16 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from assignments.terms import Terms
-from assignments.terms_words import late_text
+from assignments.terms_words import COUNTS, late_text
 from grader.ledger import Row
 from grader.page import counted, points_text
-
-_COUNTS = {
-    "newest": "The newest attempt counts.",
-    "best": "The best attempt counts.",
-    "first": "The first attempt counts.",
-    "mean": "The mean of all attempts counts.",
-}
 
 
 @dataclass(frozen=True)
@@ -69,11 +62,12 @@ def _lateness(row: Row, terms: Terms) -> list[str]:
 
 
 def _attempts(used: int, left: int | None, terms: Terms, *, is_over: bool) -> str:
-    how = _COUNTS[terms.counts] if used > 1 or (left and not is_over) else ""
+    counts = f"{COUNTS[terms.counts].capitalize()}."
+    how = counts if used > 1 or (left and not is_over) else ""
     if is_over:
         return f"{counted(used, 'attempt')} handed in; the time is over. {how}".strip()
     if left is None:
-        return f"You may hand in again as often as you like. {how or _COUNTS[terms.counts]}"
+        return f"You may hand in again as often as you like. {counts}"
     said = "no attempt is left" if left == 0 else f"{counted(left, 'attempt')} left"
     return f"{used} of {counted(terms.attempts, 'attempt')} used, {said}. {how}".strip()
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import partial
 
 from markupsafe import Markup
 
@@ -19,7 +20,7 @@ from grader.frame import ImpactFrame
 from grader.ledger import Row
 from grader.levels import levels_of
 from grader.model import Answer, Finding, Grade, Submission
-from grader.page import Verdict, earned_text, number, points_text, symbol, template, unit_text, verdict
+from grader.page import Verdict, earned_text, number, points_text, prose, symbol, template, unit_text, verdict
 from grader.stated import Stated, state
 from grader.trajectory import TrajectoryFit, fit_trajectory
 
@@ -99,6 +100,7 @@ def feedback_page(report: Report) -> str:
     return template("feedback.html.j2").render(
         title=f"{report.assignment.title}: feedback",
         assignment=report.assignment,
+        prose=partial(prose, symbols=[question.symbol for question in report.assignment.questions]),
         pid=report.key.student,
         attempt=report.attempt,
         points=points_text(points, is_provisional=is_provisional),

@@ -16,13 +16,17 @@ if TYPE_CHECKING:
 PidArgument = Annotated[str, typer.Argument(metavar="PID", help="The student's pseudonym.")]
 
 
+# points below 0 are refused as a number, not as an option that is not known
+_NUMBERS = {"ignore_unknown_options": True}
+
+
 def register(app: typer.Typer) -> None:
     """Add `vml gradebook ...` to `app`."""
     book = typer.Typer(
         help="Look into the gradebook of a course, and settle what needs a person.", no_args_is_help=True
     )
     for name, command in (("show", show), ("set", set_), ("extend", extend), ("verify", verify)):
-        book.command(name)(command)
+        book.command(name, context_settings=_NUMBERS if command is set_ else None)(command)
     app.add_typer(book, name="gradebook")
 
 

@@ -6,6 +6,7 @@ Every text that came from a workbook is hostile until a template has escaped it;
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cache
@@ -70,6 +71,17 @@ def symbol(text: str) -> Markup:
     """
     letter, below = split_symbol(text)
     return escape(letter) + (Markup("<sub>{}</sub>").format(below) if below else Markup())
+
+
+def prose(text: str, symbols: Iterable[str]) -> Markup:
+    """Return a sentence with the subscripts of the symbols in it; all else is escaped.
+
+    >>> prose("v_b2 < v_f1", ["e", "v_b2"])
+    Markup('v<sub>b2</sub> &lt; v_f1')
+    """
+    known = [one for one in symbols if split_symbol(one)[1]]
+    parts = re.split(rf"(?<!\w)({'|'.join(map(re.escape, known))})(?!\w)", text) if known else [text]
+    return Markup().join(symbol(part) if part in known else escape(part) for part in parts)
 
 
 def unit_text(text: str) -> str:

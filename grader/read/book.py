@@ -11,7 +11,7 @@ from typing import Any
 from grader.kind import Kind
 from grader.read import limits
 from grader.read.container import Container, open_container
-from grader.read.errors import SAVE_AS, RefusedError, UnreadableError
+from grader.read.errors import OUR_TEMPLATE, SAVE_AS, UNPACKED, RefusedError, UnreadableError
 from grader.read.flags import Flag
 from grader.read.parts import Relation, read_directory, read_formats, read_relations, read_strings
 from grader.read.sheet import BookCell, Place, SheetContent, read_sheet
@@ -162,10 +162,10 @@ def _other_document(container: Container) -> RefusedError:
     if "xl/workbook.bin" in names:
         return RefusedError("a binary workbook (.xlsb)", SAVE_AS)
     if "word/document.xml" in names:
-        return RefusedError("a Word document", "Hand in the workbook that came with your video.")
+        return RefusedError("a Word document", OUR_TEMPLATE)
     if "ppt/presentation.xml" in names:
-        return RefusedError("a presentation", "Hand in the workbook that came with your video.")
-    return RefusedError("a ZIP archive", "Hand in the workbook itself, not packed.")
+        return RefusedError("a presentation", OUR_TEMPLATE)
+    return RefusedError("a ZIP archive", UNPACKED)
 
 
 def _sha(data: bytes) -> str:

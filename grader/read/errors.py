@@ -6,14 +6,15 @@ from vml_course.errors import InputError, VmlError
 
 SAVE_AS = "In Excel or LibreOffice choose File, Save As, Excel Workbook (.xlsx), and hand in that file."
 AGAIN = "Open it on your computer, save it again and hand in the new copy."
+UNPACKED = "Hand in the workbook itself, not packed."
 OUR_TEMPLATE = "Type your answers into the workbook that came with your video and hand in that file."
 
 
 class UnreadableError(InputError):
     """A file is no workbook that can be graded; the message says what it is and what to do."""
 
-    def __init__(self, name: str, got: str, hint: str = AGAIN) -> None:
-        super().__init__(name, "an Excel workbook (.xlsx)", got, hint)
+    def __init__(self, name: str, got: str, hint: str = AGAIN, expected: str = "an Excel workbook (.xlsx)") -> None:
+        super().__init__(name, expected, got, hint)
 
 
 class RefusedError(Exception):

@@ -53,7 +53,7 @@ def claims_of(book: Book) -> Claims:
     said = dict(_pairs(sheet)) if sheet else {}
     code, assignment = said.get("variant_code"), said.get("assignment")
     if not code or not assignment:
-        raise UnreadableError(book.name, "a workbook without our variant code", OUR_TEMPLATE)
+        raise UnreadableError(book.name, "one without our variant code", OUR_TEMPLATE, "the workbook of your video")
     return Claims(
         code, assignment, said.get("signature", ""), said.get("assignment_version", ""), said.get("purpose", "")
     )

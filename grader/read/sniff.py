@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-from grader.read.errors import OUR_TEMPLATE, SAVE_AS, RefusedError
+from grader.read.errors import OUR_TEMPLATE, SAVE_AS, UNPACKED, RefusedError
 from grader.read.limits import FILE_BYTES
 
 _OLE = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1"
 _SIGNATURES = (
-    (b"%PDF", "a PDF document"),
-    (b"\x89PNG", "a picture (PNG)"),
-    (b"\xff\xd8\xff", "a picture (JPEG)"),
-    (b"GIF8", "a picture (GIF)"),
-    (b"Rar!", "a RAR archive"),
-    (b"7z\xbc\xaf", "a 7z archive"),
-    (b"\x1f\x8b", "a gzip archive"),
-    (b"{\\rtf", "a text document (RTF)"),
-    (b"ID3", "a sound file"),
-    (b"L\0\0\0\x01\x14\x02\0", "a shortcut to a file"),
+    (b"%PDF", "a PDF document", OUR_TEMPLATE),
+    (b"\x89PNG", "a picture (PNG)", OUR_TEMPLATE),
+    (b"\xff\xd8\xff", "a picture (JPEG)", OUR_TEMPLATE),
+    (b"GIF8", "a picture (GIF)", OUR_TEMPLATE),
+    (b"Rar!", "a RAR archive", UNPACKED),
+    (b"7z\xbc\xaf", "a 7z archive", UNPACKED),
+    (b"\x1f\x8b", "a gzip archive", UNPACKED),
+    (b"{\\rtf", "a text document (RTF)", OUR_TEMPLATE),
+    (b"ID3", "a sound file", OUR_TEMPLATE),
+    (b"L\0\0\0\x01\x14\x02\0", "a shortcut to a file", "Hand in the workbook itself, not a shortcut to it."),
 )
 
 
@@ -44,9 +44,9 @@ def require_zip(data: bytes) -> None:
 def _other(data: bytes) -> RefusedError:
     if data.startswith(_OLE):
         return _ole(data)
-    for signature, what in _SIGNATURES:
+    for signature, what, hint in _SIGNATURES:
         if data.startswith(signature):
-            return RefusedError(what, SAVE_AS)
+            return RefusedError(what, hint)
     if data[4:8] == b"ftyp" or data.startswith(b"RIFF"):
         return RefusedError("a video", "Hand in the workbook, not the video.")
     return _text(data)
@@ -66,7 +66,7 @@ def _text(data: bytes) -> RefusedError:
     head = data[:4096]
     start = head.lstrip(b"\xef\xbb\xbf \t\r\n").lower()
     if start.startswith((b"<!doctype html", b"<html", b"<table")):
-        return RefusedError("a web page", SAVE_AS)
+        return RefusedError("a web page", f"{OUR_TEMPLATE} Is this it? {SAVE_AS}")
     if start.startswith(b"{") and b"doc_id" in start:
         return RefusedError("a link to an online document", "There choose File, Download, Microsoft Excel (.xlsx).")
     if start.startswith(b"<?xml"):

@@ -27,7 +27,7 @@ PICTURE = FirstPicture(np.random.default_rng(1).integers(0, 255, (720, 1280, 3),
 @pytest.fixture(scope="module")
 def html() -> str:
     return render_handout(
-        KICK, VARIANT, GIVEN, PICTURE, terms=("Due Friday 12 June, 18:00.", "2 attempts; the best counts.")
+        KICK, VARIANT, GIVEN, PICTURE, terms=("Due Friday 12 June, 18:00.", "2 attempts; the best attempt counts.")
     )
 
 
@@ -89,7 +89,7 @@ def test_an_end_near_the_border_is_shown_too() -> None:
 
 def test_it_shows_the_due_date_only_when_there_is_one(html: str) -> None:
     assert "Due Friday 12 June, 18:00" in html
-    assert "2 attempts; the best counts." in html
+    assert "2 attempts; the best attempt counts." in html
     assert "Due " not in render_handout(KICK, VARIANT, GIVEN, PICTURE)
 
 

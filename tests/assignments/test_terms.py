@@ -121,7 +121,7 @@ def test_a_student_is_told_date_lateness_last_moment_and_attempts() -> None:
         "Due Saturday 2 May 2026, 22:00 (UTC).",
         "Late work loses 10 % of its points for every 24 h begun, 50 % at most.",
         "Nothing counts that comes after Saturday 9 May 2026, 22:00 (UTC).",
-        "3 attempts; the best counts.",
+        "3 attempts; the best attempt counts.",
     )
 
 

@@ -180,6 +180,13 @@ def test_what_cannot_be_set_is_one_line(room, capsys, who, question, points, rea
     assert capsys.readouterr().err.count("\n") == 1
 
 
+def test_points_below_zero_are_refused_as_a_number(room, capsys):
+    grade_files(room.course, [room.workbook(0)])
+    call = ["gradebook", "set", room.students[0].pid, "soccer-kick", "e", "-1", "--reason", "x"]
+    assert run([*call, "--course", str(room.course.folder)]) == 2
+    assert "points: expected 0 to " in capsys.readouterr().err
+
+
 @pytest.mark.skipif(os.name != "posix", reason="modes of files")
 def test_the_gradebook_is_its_owners_alone(room):
     file = room.course.folder / "gradebook.db"

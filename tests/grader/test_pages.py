@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import html.parser
 import re
+from dataclasses import replace
 
 from grader.feedback import Report, class_page, feedback_page, verdict
 from grader.grade import grade
 from grader.gradebook import Row, Student
 from grader.model import Finding, Outcome
+from grader.page import prose
 
 
 class Tags(html.parser.HTMLParser):
@@ -83,3 +85,16 @@ def test_a_table_with_one_row_draws_no_curve(desk, kit):
 def test_an_error_carried_on_is_shown_as_such():
     finding = Finding("e", "value", Outcome.RIGHT, 1, 1, "", carried=True)
     assert verdict([finding]).word == "carried on"
+
+
+def test_symbols_in_a_sentence_look_as_they_do_in_the_table(desk, kit):
+    done = replace(report(desk, kit), adjustments=("v_b2 set to 1 points: <b>v_f1</b>, not v_b2x",))
+    assert "v<sub>b2</sub> set to 1 points: &lt;b&gt;v<sub>f1</sub>&lt;/b&gt;, not v_b2x" in feedback_page(done)
+    wrong = report(desk, kit, e=0.2)
+    finding = replace(wrong.grade.of("e")[0], outcome=Outcome.WRONG, message="e is (v_b2 − v_f2) / v_f1.")
+    told = replace(wrong, grade=replace(wrong.grade, findings=(finding,)))
+    assert "e is (v<sub>b2</sub> − v<sub>f2</sub>) / v<sub>f1</sub>." in feedback_page(told)
+
+
+def test_a_sentence_without_symbols_stays_as_it_is():
+    assert prose("a < b, v_x", ["e"]) == "a &lt; b, v_x"

@@ -88,6 +88,8 @@ WHAT_TO_DO = {
     **dict.fromkeys(("zip in a zip", "zip in a zip, named so"), "not packed"),
     **dict.fromkeys(("half an upload", "the tail cut off"), "save it again"),
     "a shortcut of a cloud drive": "File, Download",
+    "a shortcut of Windows": "not a shortcut",
+    "pdf": "the workbook that came with your video",
 }
 
 
@@ -96,6 +98,16 @@ def test_another_format_is_told_what_to_do(good_bytes, name):
     with pytest.raises(UnreadableError) as caught:
         read_workbook(ReadRequest("w.xlsx", corpus.OTHER_FORMATS[name][0](good_bytes)))
     assert WHAT_TO_DO.get(name, "File, Save As, Excel Workbook (.xlsx)") in caught.value.hint
+
+
+WHAT_HELPS = {
+    "picture": "Type your answers into the workbook that came with your video",
+    "RTF": "Type your answers into the workbook",
+    "sound": "Type your answers into the workbook",
+    "archive": "Hand in the workbook itself, not packed",
+    "a video": "Hand in the workbook, not the video",
+    "incomplete upload": "save it again",
+}
 
 
 @pytest.mark.parametrize(
@@ -127,8 +139,8 @@ def test_a_file_is_known_by_its_first_bytes(data, words):
     with pytest.raises(UnreadableError) as caught:
         read_workbook(ReadRequest("w.xlsx", data))
     assert words in caught.value.got
-    what_to_do = {"a video": "Hand in the workbook, not the video", "incomplete upload": "save it again"}
-    assert what_to_do.get(words, "File, Save As, Excel Workbook (.xlsx)") in caught.value.hint
+    told = next((hint for what, hint in WHAT_HELPS.items() if what in words), "File, Save As, Excel Workbook (.xlsx)")
+    assert told in caught.value.hint
 
 
 @pytest.mark.parametrize("folder", ["", "Doe Jane_4711_assignsubmission_file/"])
