@@ -41,15 +41,17 @@ def answer_key(
         When a question asks for something that no truth is known of.
     """
     estimates = measured.estimates if measured else {}
-    signs = {item.id: item.solved for item in textbook_of(truth.scene).measured}
+    given = given_values(assignment, variant)
+    asked = [question.id for question in assignment.questions]
+    solved = textbook_of(truth.scene).solved(estimates, asked, given)
     return AnswerKey(
         assignment_id=assignment.id,
         student=variant.student,
         code=variant.code,
         values={question.id: true_value(question.id, truth) for question in assignment.questions},
-        expected_sd={symbol: estimate.sd for symbol, estimate in estimates.items()},
-        measured={symbol: signs.get(symbol, 1.0) * estimate.value for symbol, estimate in estimates.items()},
-        given=given_values(assignment, variant),
+        expected_sd={symbol: estimate.sd for symbol, estimate in solved.items()},
+        measured={symbol: estimate.value for symbol, estimate in solved.items()},
+        given=given,
         truth=_further(truth) | _stick(truth, assignment),
         video_sha256=video_sha256,
         versions={

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from vml_course.errors import InputError, UnknownNameError
+from vml_course.model.solution import Estimate
 from vml_course.model.truth import ImpactTruth
 from vml_course.synth.scene import Scene, scene_class
 
@@ -40,22 +41,25 @@ class Measured:
     Attributes
     ----------
     id : str
-        Of the question; where the solver estimates it, the solver's symbol.
+        Of the question.
     field : str
         Which field of the numbers it is.
     true : callable
         How an impact gives it.
     may_rest : bool
         Whether it may be left unasked where the body is at rest; it is 0 then.
-    solved : float
-        What the solver's estimate of the same symbol is multiplied with: -1 where its sign is another one.
+    symbol : str
+        The solver's symbol of it, "" where that is the question's id.
+    solved : callable
+        What the solver's estimate is multiplied with, of the given numbers: -1 where its sign is another one.
     """
 
     id: str
     field: str
     true: Callable[[Met], float]
     may_rest: bool = False
-    solved: float = 1.0
+    symbol: str = ""
+    solved: Callable[[Values], float] = lambda _: 1.0
 
 
 @dataclass(frozen=True)
@@ -203,6 +207,27 @@ class Textbook:
         """Return the numbers as the record that formulas take; S is the scale of the picture."""
         known = {**self.told(given), "S": px_per_m, **values}
         return self.numbers(**{field.name: known.get(field.name, math.nan) for field in fields(self.numbers)})
+
+    def solved(self, estimates: Mapping[str, Estimate], asked: Iterable[str], given: Values) -> dict[str, Estimate]:
+        """Return a solver's estimates by question, in the signs of this textbook, beside its other ones.
+
+        A conclusion that is asked and that the solver does not name follows by its formula; its standard deviation is
+        that of measured numbers that are off independently of one another.
+        """
+        found, asked = dict(estimates), set(asked)
+        for item in self.measured:
+            if (item.symbol or item.id) in estimates:
+                one, factor = estimates[item.symbol or item.id], item.solved(given)
+                found[item.id] = Estimate(factor * one.value, abs(factor) * one.sd)
+        fields_of = {item.field: found[item.id] for item in self.measured if item.id in found.keys() & asked}
+        values = self.resting(asked) | {name: one.value for name, one in fields_of.items()}
+        for conclusion in self.concluded:
+            value = value_of(conclusion.formula, self.record(values, given))
+            if conclusion.id in asked - found.keys() and math.isfinite(value):
+                moved = ({**values, name: one.value + one.sd} for name, one in fields_of.items())
+                moves = (value_of(conclusion.formula, self.record(numbers, given)) - value for numbers in moved)
+                found[conclusion.id] = Estimate(value, math.hypot(*filter(math.isfinite, moves)))
+        return found
 
     def numbers_of(self, met: Met) -> Numbers:
         """Return the numbers of an impact."""

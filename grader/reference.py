@@ -8,14 +8,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from functools import partial
 from typing import Any
 
 import numpy as np
 
 from assignments.model import AnswerKey, Assignment
 from assignments.textbook import textbook_of
-from grader.own import OwnNumbers
 from grader.tracked import OUR_FAILURE, FromTable
 from grader.trajectory import TrajectoryFit, fit_trajectory
 from vml_course.errors import VmlError
@@ -77,16 +75,8 @@ def _motion(fit: TrajectoryFit, key: AnswerKey, ratio: float) -> Motion:
 def _by_question(
     found: ImpactSolution, key: AnswerKey, assignment: Assignment
 ) -> tuple[dict[str, float], dict[str, float]]:
-    """Return estimates by question, in the textbook's signs; what the solver does not name follows by its formula."""
-    book, asked = textbook_of(key.scene), {question.id for question in assignment.questions}
-    signs = {item.id: item.solved for item in book.measured}
-    values = {id_: signs.get(id_, 1.0) * estimate.value for id_, estimate in found.estimates.items() if id_ in asked}
-    sds = {id_: found.estimates[id_].sd for id_ in values}
-    fields = {item.field: item.id for item in book.measured if item.id in values}
-    known = {field: values[id_] for field, id_ in fields.items()}
-    way = OwnNumbers({**book.resting(key.values), **known}, partial(book.record, given=key.given))
-    field_sds = {field: sds[id_] for field, id_ in fields.items()}
-    for item in book.concluded:
-        if item.id in asked and item.id not in values and math.isfinite(way.value(item.formula)):
-            values[item.id], sds[item.id] = way.value(item.formula), way.spread(item.formula, field_sds)
-    return values, sds
+    """Return values and standard deviations by question, in the textbook's signs."""
+    asked = [question.id for question in assignment.questions]
+    solved = textbook_of(key.scene).solved(found.estimates, asked, key.given)
+    kept = {id_: solved[id_] for id_ in asked if id_ in solved}
+    return {id_: one.value for id_, one in kept.items()}, {id_: one.sd for id_, one in kept.items()}

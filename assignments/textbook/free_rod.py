@@ -13,7 +13,7 @@ from math import nan
 
 from assignments.mistakes import DEGREES, MISTAKES
 from assignments.slips import slips_of_mass, slips_of_rate
-from assignments.theory import Concluded, Measured, Met, Mistake, Textbook, along, by_code, unknown
+from assignments.theory import Concluded, Measured, Met, Mistake, Textbook, Values, along, by_code, unknown
 
 
 @dataclass(frozen=True)
@@ -53,6 +53,10 @@ class RodNumbers:
 
 def _towards(met: Met, velocity_m_s: object) -> float:
     return -along(velocity_m_s, met.impact.normal)  # the normal points from the rod to the puck
+
+
+def _reversed(_: Values) -> float:
+    return -1.0  # the solver counts along the normal
 
 
 _MISTAKES = (
@@ -115,9 +119,9 @@ TEXTBOOK = Textbook(
     model="free-rod",
     numbers=RodNumbers,
     measured=(
-        Measured("v_b1", "u1", lambda met: _towards(met, met.impact.struck_before_m_s), solved=-1),
-        Measured("v_b2", "u2", lambda met: _towards(met, met.impact.struck_after_m_s), solved=-1),
-        Measured("v_g2", "g2", lambda met: _towards(met, met.impact.after[met.impact.striker, :2]), solved=-1),
+        Measured("v_b1", "u1", lambda met: _towards(met, met.impact.struck_before_m_s), solved=_reversed),
+        Measured("v_b2", "u2", lambda met: _towards(met, met.impact.struck_after_m_s), solved=_reversed),
+        Measured("v_g2", "g2", lambda met: _towards(met, met.impact.after[met.impact.striker, :2]), solved=_reversed),
         Measured("omega2", "omega2", lambda met: met.impact.omega_after_rad_s),
     ),
     concluded=(

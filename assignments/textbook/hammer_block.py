@@ -58,7 +58,13 @@ TEXTBOOK = Textbook(
     numbers=HammerNumbers,
     measured=(
         *MEASURED,
-        Measured("a_b", "a", lambda met: met.parameters["friction"] * STANDARD_GRAVITY),
+        Measured(
+            "a_b",
+            "a",
+            lambda met: met.parameters["friction"] * STANDARD_GRAVITY,
+            symbol="mu",
+            solved=lambda given: given.get("g", STANDARD_GRAVITY),
+        ),
     ),
     concluded=(*CONCLUDED, Concluded("mu", "{a_b} / {g}", lambda n: n.mu, unknown("mu"))),
     mistakes={**MISTAKES, **by_code(*_MISTAKES)},

@@ -326,6 +326,7 @@ def test_the_arm_is_that_of_the_contact() -> None:
     door = told({"m": 0.4, "L": 0.8, "a": 0.6})
     assert (door["L"], door["mark"], math.isnan(door["D"])) == (0.6, 0.8, True)
     assert all(math.isnan(value) for value in told({}).values())
+    assert math.isnan(told({"a": 0.6})["mark"])
 
 
 @pytest.mark.parametrize("name", assignment_ids())

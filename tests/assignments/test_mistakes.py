@@ -78,3 +78,10 @@ def test_the_closed_form_keeps_e_and_inertia_when_the_ball_comes_in() -> None:
 def test_the_closed_form_keeps_scale_and_tilt() -> None:
     found = numbers_of_impact({"e": 0.6, "I": 0.9, "m": 0.3, "L": 0.5, "omega1": 20.0}, px_per_m=500.0, tilt_rad=0.1)
     assert (found.S, found.tilt_rad) == (500.0, 0.1)
+
+
+def test_what_comes_from_a_body_at_rest_is_another_mistakes() -> None:
+    at_rest = dataclasses.replace(PAPER, omega1=0.0, v1=0.0, u1=-5.0)
+    assert math.isnan(MISTAKES["I16"].value(at_rest))
+    assert math.isnan(MISTAKES["E25"].value(at_rest))
+    assert math.isfinite(MISTAKES["I17b"].value(PAPER))

@@ -20,6 +20,7 @@ UNITS_OF: Mapping[str, str] = {
     "v_b1": "m/s", "v_b2": "m/s", "v_t1": "m/s", "v_t2": "m/s", "J": "N s", "t_impact": "s", "loss": "J", "a": "m",
     "theta_max": "rad",
     **dict.fromkeys(("v_a1", "v_a2", "v_g1", "v_g2"), "m/s"),
+    **{f"v_{body}{side}{axis}": "m/s" for body in "ab" for side in "12" for axis in "xy"},
 }  # fmt: skip
 FLOOR = {"e": 0.003, "I": 0.005, "M": 0.005, "mu": 0.005, "v1": 0.003}  # relative: a real measurement's own faults
 DOUBT_SD = 3.0

@@ -116,13 +116,16 @@ def _tied(u: Symbols) -> dict[str, Any]:
 
 
 def _outcome(u: Symbols) -> dict[str, Any]:
-    """Return what is asked; velocities along the normal from the striking to the struck puck."""
+    """Return what is asked; velocities along the normal from the striking to the struck puck, and along x and y."""
     u = _tied(u)
     nx, ny = direction(u["b2x"] - u["b1x"], u["b2y"] - u["b1y"])
     a1, a2, b1, b2 = (u[f"{body}{side}x"] * nx + u[f"{body}{side}y"] * ny for body in "ab" for side in "12")
     e, reduced = (b2 - a2) / (a1 - b1), 1.0 / (1.0 / u["M"] + 1.0 / u["m"])
     found = {"e": e, "M": u["M"], "v_a1": a1, "v_a2": a2, "v_b1": b1, "v_b2": b2, "J": u["m"] * (b2 - b1)}
-    return {**found, "t_impact": u["t"], "loss": 0.5 * reduced * (1.0 - e**2) * (a1 - b1) ** 2}
+    found |= {"t_impact": u["t"], "loss": 0.5 * reduced * (1.0 - e**2) * (a1 - b1) ** 2}
+    return found | {
+        f"v_{body}{side}{axis}": u[f"{body}{side}{axis}"] for body in "ab" for side in "12" for axis in "xy"
+    }
 
 
 def _normal_off_deg(u: Symbols) -> float:
