@@ -173,8 +173,7 @@ def _from_truth(value: float, key: AnswerKey, question: Question, mistakes: Sequ
     close = [(distance, code) for distance, code in fits if distance <= near]
     if not close:
         return ()
-    rivals = [code for distance, code in fits if distance <= max(_CLEAR * close[0][0], near)]
-    return tuple(rivals) if len(rivals) <= LARGEST_GROUP else ()
+    return tuple(code for distance, code in fits if distance <= max(_CLEAR * close[0][0], near))
 
 
 def _distances(value: float, numbers: Numbers, mistakes: Iterable[Mistake]) -> Iterable[tuple[float, str]]:

@@ -160,6 +160,15 @@ def test_nothing_is_to_be_done_where_everything_is_right(steps):
     assert "nothing to do" in step
 
 
+def test_what_a_person_has_decided_is_nothing_to_do_but_to_read(assignment):
+    def step(outcome):
+        grade = Grade((finding("e", outcome),), 0.0, 10.0, "ok", decided=frozenset({"e"}))
+        return next_steps(grade, assignment, may_hand_in=True, show_truth=True)[0]
+
+    assert step(Outcome.PARTIAL).startswith("A person has looked")
+    assert step(Outcome.RIGHT).startswith("Everything that was judged is right")
+
+
 def test_an_empty_workbook_is_to_be_filled_in_and_nothing_else(steps):
     first, then = steps(finding("e"), status="empty", may_hand_in=True)
     assert "coloured cells" in first
@@ -246,7 +255,7 @@ def test_a_formula_is_to_be_worked_out_again_unless_it_is_explained(steps):
 @pytest.mark.parametrize(
     ("outcome", "numbers", "words"),
     [
-        (Outcome.WRONG, {}, "Paste your measured positions"),
+        (Outcome.WRONG, {}, "Paste your measured positions into the sheet Tracking"),
         (Outcome.UNSURE, {}, "Paste your measured positions"),
         (Outcome.WRONG, {"rms_px": 9.0}, "Repair the tracking table"),
         (Outcome.PARTIAL, {"rms_px": 3.0}, "Repair the tracking table"),
