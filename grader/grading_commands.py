@@ -17,6 +17,7 @@ from vml_course.commands._progress import progress
 from vml_course.errors import InputError
 
 if TYPE_CHECKING:
+    from assignments.course import Course
     from grader.grading import Graded
     from grader.releasing import Change
 
@@ -134,7 +135,7 @@ def grade(
     if as_json:
         print_json([{**asdict(g), "file": str(g.file), "feedback": g.feedback or None} for g in graded])
     else:
-        _print_graded(graded, opened.shelf.place())
+        _print_graded(graded, opened)
         waiting = 0 if files or again else waiting_files(opened, assignment)
         if waiting:
             typer.echo(
@@ -144,7 +145,8 @@ def grade(
         raise typer.Exit(1)
 
 
-def _print_graded(graded: Iterable[Graded], place: str) -> None:
+def _print_graded(graded: Iterable[Graded], course: Course) -> None:
+    from assignments.terms import Terms
     from grader.feedback import points_text
 
     graded = list(graded)
@@ -160,8 +162,11 @@ def _print_graded(graded: Iterable[Graded], place: str) -> None:
     counts = Counter(item.status for item in graded)
     statuses = ", ".join(f"{number} {status}" for status, number in counts.most_common())
     typer.echo(f"{len(graded)} file{'s' if len(graded) > 1 else ''}: {statuses}.")
-    for assignment_id in dict.fromkeys(item.assignment_id for item in graded if item.assignment_id):
-        typer.echo(f"Class page: {place}/feedback/{assignment_id}/class.html")
+    assignments = dict.fromkeys(item.assignment_id for item in graded if item.assignment_id)
+    if any(course.calendar.terms_of(id_) != Terms() for id_ in assignments):
+        typer.echo("These are the points of each file by itself. What counts in the end: vml gradebook show")
+    for id_ in assignments:
+        typer.echo(f"Class page: {course.shelf.place()}/feedback/{id_}/class.html")
 
 
 def release(

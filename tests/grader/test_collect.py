@@ -322,6 +322,16 @@ def test_the_commands_collect_grade_and_release(term, capsys) -> None:
     assert run(["collect", SLUG, download, *at, "--lms", "webct"]) == 2
 
 
+def test_points_of_each_file_are_said_to_be_before_lateness(term, capsys) -> None:
+    path, at = term.course.folder / "w.xlsx", ["--course", str(term.course.folder)]
+    path.write_bytes(term.file(0))
+    assert run(["grade", str(path), *at]) == 0
+    assert "What counts in the end" not in capsys.readouterr().out
+    term.say('[assignment.soccer-kick]\ndue = 2026-05-01T22:00:00\nlate = { rule = "fixed", share = 0.2 }\n')
+    assert run(["grade", str(path), *at]) == 0
+    assert "What counts in the end: vml gradebook show" in capsys.readouterr().out
+
+
 def test_what_is_no_download_is_one_line(term) -> None:
     nothing = term.course.folder / "nothing"
     nothing.mkdir()
