@@ -60,6 +60,13 @@ def test_a_conclusion_that_is_asked_follows_by_its_formula() -> None:
     assert found["s2"].sd == pytest.approx(math.hypot(0.03, 0.12))
 
 
+def test_a_number_so_vague_that_nothing_follows_widens_nothing() -> None:
+    """mu = |v_t2 - v_t1| / (v_b2 - v_b1); with v_b2 off by its sd, nothing was thrown up."""
+    sharp = {"v_t1": Estimate(1.0, 0.0), "v_t2": Estimate(0.0, 0.1), "v_b1": Estimate(-1.0, 0.0)}
+    found = textbook("spin-bounce").solved({**sharp, "v_b2": Estimate(-2.0, 1.0)}, [*sharp, "v_b2", "mu"], {})["mu"]
+    assert (found.value, found.sd) == (-1.0, pytest.approx(0.1))
+
+
 @pytest.mark.parametrize(
     ("asked", "given"),
     [(["v_t2", "omega2"], {"R": 0.12}), (["s2", "v_t2"], {"R": 0.12}), (["s2", "omega2", "v_t2"], {})],
