@@ -113,8 +113,8 @@ def _placed(data: bytes, entries: Iterable[zipfile.ZipInfo]) -> dict[str, Member
 
 def _member(data: bytes, entry: zipfile.ZipInfo) -> Member:
     at = entry.header_offset
-    header = data[at : at + _LOCAL_LENGTH] if at >= 0 else b""
-    if len(header) < _LOCAL_LENGTH or not header.startswith(_LOCAL):
+    header = data[at : at + _LOCAL_LENGTH]
+    if at < 0 or len(header) < _LOCAL_LENGTH or not header.startswith(_LOCAL):
         raise RefusedError("a damaged or incomplete upload")
     start = at + _LOCAL_LENGTH + int.from_bytes(header[26:28], "little") + int.from_bytes(header[28:30], "little")
     if start + entry.compress_size > len(data):

@@ -190,7 +190,7 @@ def _received(stream: IO[bytes]) -> bytes | None:
 class _PlainUnpickler(pickle.Unpickler):
     def find_class(self, module: str, name: str) -> object:
         if (module, name) not in _PLAIN:
-            raise pickle.UnpicklingError(name)
+            raise pickle.UnpicklingError
         return _PLAIN[module, name]
 
 
@@ -214,7 +214,7 @@ def serve() -> None:
     _send(answers, _READY)
     while (message := _received(requests)) is not None:
         limit_cpu(limits.CPU_S)
-        _send(answers, pickle.dumps(_answer(pickle.loads(message)), protocol=5))  # noqa: S301 - from our own parent
+        _send(answers, pickle.dumps(_answer(pickle.loads(message))))  # noqa: S301 - from our own parent
 
 
 def _answer(request: ReadRequest) -> Book | tuple[str, str, str]:
