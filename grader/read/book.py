@@ -84,12 +84,12 @@ def read_workbook(request: ReadRequest) -> Book:
         One polite line that says what the file is and what to do.
     """
     try:
-        return _read(request, is_inner=False)
+        return _read(request)
     except RefusedError as error:
         raise UnreadableError(shown_name(request.name), error.got, error.hint) from error
 
 
-def _read(request: ReadRequest, *, is_inner: bool) -> Book:
+def _read(request: ReadRequest, *, is_inner: bool = False) -> Book:
     require_zip(request.data)
     container = open_container(request.data)
     if "[content_types].xml" not in container:

@@ -147,6 +147,12 @@ def test_macros_links_and_far_cells_are_flagged_together(parts, flags):
     assert book.flags == tuple(sorted(flags))
 
 
+def test_a_message_shows_a_file_name_in_letters_that_can_be_seen():
+    with pytest.raises(UnreadableError) as caught:
+        read(b"", "a\nb\0 Größe.xlsx")
+    assert str(caught.value).startswith("a?b? Größe.xlsx: expected")
+
+
 def test_a_book_knows_its_file_and_its_names():
     data = workbook('<sheet name="a" id="a"/><definedName name="Ans_e">a!$A$1</definedName>')
     book = read(data, "Doe.xlsx")

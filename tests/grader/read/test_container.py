@@ -36,7 +36,7 @@ def test_a_part_with_another_sum_or_length_than_declared_is_damaged(packing, fie
     directory = data.index(b"PK\x01\x02")
     data[directory + field : directory + field + 4] = value
     with pytest.raises(RefusedError, match="a damaged workbook"):
-        open_container(bytes(data)).read(TYPES)
+        open_container(bytes(data)).read(TYPES.lower())
 
 
 @pytest.mark.parametrize("name", ["/xl/a.xml", "//xl/a.xml", "\\xl\\a.xml", "XL/A.xml"])
@@ -45,8 +45,25 @@ def test_a_part_has_one_name_however_it_is_written(name):
     info.filename = name
     container = open_container(corpus.pack({info: b"<a/>"}))
     assert list(container.members) == ["xl/a.xml"]
-    assert "Xl/a.xml" in container
-    assert container.read("Xl/a.xml") == b"<a/>"
+    assert "xl/a.xml" in container
+    assert container.read("xl/a.xml") == b"<a/>"
+
+
+def test_what_some_programs_write_before_a_part_is_passed_over():
+    info = zipfile.ZipInfo("a.xml")
+    info.extra = b"\xfe\xca\x04\0more"
+    assert open_container(corpus.pack({info: b"<a/>"})).read("a.xml") == b"<a/>"
+
+
+def test_a_part_may_end_where_the_file_ends_and_not_beyond():
+    content = b"<Types/>"
+    packed, crc = corpus.deflated(content), zlib.crc32(content)
+    entry = (b"a.xml", packed, len(content), crc)
+    before = len(corpus.raw_archive([(*entry, 0)], b""))
+    data = corpus.raw_archive([(*entry, before)], b"") + corpus.local(*entry)
+    assert open_container(data).read("a.xml") == content
+    with pytest.raises(RefusedError, match="incomplete upload"):
+        open_container(data[:-1])
 
 
 def test_a_part_that_would_lie_before_the_file_is_an_incomplete_upload():

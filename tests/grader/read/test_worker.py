@@ -246,6 +246,37 @@ def test_nothing_but_cells_is_taken_from_the_process(answer):
     assert worker_module._unpickled(b"no pickle") is None
 
 
+# ---------------------------------------------------------------- messages
+
+
+def stream_of(*messages: bytes) -> io.BytesIO:
+    stream = io.BytesIO()
+    for message in messages:
+        worker_module._send(stream, message)
+    stream.seek(0)
+    return stream
+
+
+def test_messages_arrive_whole_one_after_another():
+    messages = [b"", b"a", bytes(300)]
+    stream = stream_of(*messages)
+    assert [worker_module._received(stream) for _ in range(4)] == [*messages, None]
+
+
+def test_a_message_that_breaks_off_is_none():
+    sent = stream_of(b"abc").getvalue()
+    assert len(sent) == 11
+    assert [worker_module._received(io.BytesIO(sent[:length])) for length in range(11)] == [None] * 11
+
+
+def test_a_message_is_so_long_and_a_longer_one_is_not_even_read(monkeypatch):
+    monkeypatch.setattr(limits, "ANSWER_BYTES", 3)
+    assert worker_module._received(stream_of(b"abc")) == b"abc"
+    longer = stream_of(b"abcd")
+    assert worker_module._received(longer) is None
+    assert longer.tell() == 8
+
+
 # ---------------------------------------------------------------- inside the process
 
 
@@ -294,10 +325,8 @@ def test_a_system_without_limits_reads_all_the_same(monkeypatch, fake):
 
 
 def test_the_process_answers_until_its_pipe_ends(monkeypatch, good_bytes):
-    requests, answers = io.BytesIO(), io.BytesIO()
-    for data in (good_bytes, b""):
-        worker_module._send(requests, pickle.dumps(ReadRequest("w.xlsx", data)))
-    requests.seek(0)
+    requests = stream_of(*(pickle.dumps(ReadRequest("w.xlsx", data)) for data in (good_bytes, b"")))
+    answers = io.BytesIO()
     monkeypatch.setattr(sys, "stdin", SimpleNamespace(buffer=requests))
     monkeypatch.setattr(sys, "stdout", SimpleNamespace(buffer=answers))
     monkeypatch.setattr(worker_module, "resource", FakeLimits())
