@@ -84,12 +84,12 @@ def read_workbook(request: ReadRequest) -> Book:
         One polite line that says what the file is and what to do.
     """
     try:
-        return _read(request, is_inner=False)
+        return _read(request)
     except RefusedError as error:
         raise UnreadableError(shown_name(request.name), error.got, error.hint) from error
 
 
-def _read(request: ReadRequest, *, is_inner: bool) -> Book:
+def _read(request: ReadRequest, *, is_inner: bool = False) -> Book:
     require_zip(request.data)
     container = open_container(request.data)
     if "[content_types].xml" not in container:
@@ -103,8 +103,8 @@ def _read(request: ReadRequest, *, is_inner: bool) -> Book:
 
 def _read_book(request: ReadRequest, container: Container, path: str) -> Book:
     folder, _, file = path.rpartition("/")
-    relations_path = f"{folder}/_rels/{file}.rels".lstrip("/")
-    relations = read_relations(container.read(relations_path), folder) if relations_path in container else {}
+    relations_path = f"{folder}/_rels/{file}.rels".removeprefix("/")
+    relations = read_relations(container.read(relations_path), folder)
     directory = read_directory(container.read(path))
     strings = read_strings(_part(container, relations, "sharedStrings"))
     formats = read_formats(_part(container, relations, "styles"))

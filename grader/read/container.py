@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import io
+import struct
 import zipfile
 import zlib
 from collections.abc import Iterable
@@ -32,13 +33,13 @@ class Member:
 
 @dataclass(frozen=True)
 class Container:
-    """A checked archive; member names are lower case with forward slashes."""
+    """A checked archive; member names are lower case with forward slashes, and are asked for so."""
 
     data: bytes
     members: dict[str, Member]
 
     def __contains__(self, name: str) -> bool:
-        return name.lower() in self.members
+        return name in self.members
 
     def read(self, name: str) -> bytes:
         """Unpack one member, never more than it declared.
@@ -48,7 +49,7 @@ class Container:
         RefusedError
             When the member is missing or damaged.
         """
-        member = self.members.get(name.lower())
+        member = self.members.get(name)
         if member is None:
             raise RefusedError("a workbook with missing parts")
         content = _unpack(self.data[member.start : member.start + member.packed], member)
@@ -113,10 +114,10 @@ def _placed(data: bytes, entries: Iterable[zipfile.ZipInfo]) -> dict[str, Member
 
 def _member(data: bytes, entry: zipfile.ZipInfo) -> Member:
     at = entry.header_offset
-    header = data[at : at + _LOCAL_LENGTH] if at >= 0 else b""
-    if len(header) < _LOCAL_LENGTH or not header.startswith(_LOCAL):
+    header = data[at : at + _LOCAL_LENGTH]
+    if at < 0 or len(header) < _LOCAL_LENGTH or not header.startswith(_LOCAL):
         raise RefusedError("a damaged or incomplete upload")
-    start = at + _LOCAL_LENGTH + int.from_bytes(header[26:28], "little") + int.from_bytes(header[28:30], "little")
+    start = at + _LOCAL_LENGTH + sum(struct.unpack_from("<2H", header, 26))  # a name and an extra field lie between
     if start + entry.compress_size > len(data):
         raise RefusedError("a damaged or incomplete upload")
     return Member(start, entry.compress_size, entry.file_size, entry.CRC, entry.compress_type == zipfile.ZIP_DEFLATED)

@@ -103,8 +103,7 @@ class Reader:
         """Return what the process says of a file; None when it died or said nothing in time."""
         process = self._process or self._start()
         self._files_read += 1
-        content = self._within(self._wall_s, process, lambda: _exchange(process, pickle.dumps(request)))
-        answer = _unpickled(content) if content is not None else None
+        answer = _unpickled(self._within(self._wall_s, process, lambda: _exchange(process, pickle.dumps(request))))
         if answer is None or self._files_read >= self._files_per_process:
             self.close()
         return answer
@@ -190,12 +189,14 @@ def _received(stream: IO[bytes]) -> bytes | None:
 class _PlainUnpickler(pickle.Unpickler):
     def find_class(self, module: str, name: str) -> object:
         if (module, name) not in _PLAIN:
-            raise pickle.UnpicklingError(name)
+            raise pickle.UnpicklingError
         return _PLAIN[module, name]
 
 
-def _unpickled(content: bytes) -> Book | tuple[str, str, str] | None:
-    """Return an answer; None when it is none of ours: then the process is as good as dead."""
+def _unpickled(content: bytes | None) -> Book | tuple[str, str, str] | None:
+    """Return an answer; None when there is none, or none of ours: then the process is as good as dead."""
+    if content is None:
+        return None
     try:
         answer = _PlainUnpickler(io.BytesIO(content)).load()
     except Exception:  # noqa: BLE001 - damaged pickles raise nearly anything
@@ -214,7 +215,7 @@ def serve() -> None:
     _send(answers, _READY)
     while (message := _received(requests)) is not None:
         limit_cpu(limits.CPU_S)
-        _send(answers, pickle.dumps(_answer(pickle.loads(message)), protocol=5))  # noqa: S301 - from our own parent
+        _send(answers, pickle.dumps(_answer(pickle.loads(message))))  # noqa: S301 - from our own parent
 
 
 def _answer(request: ReadRequest) -> Book | tuple[str, str, str]:

@@ -248,8 +248,9 @@ def archive(*sizes: tuple[int, int]) -> bytes:
 def test_a_file_is_so_large_and_no_larger(monkeypatch):
     monkeypatch.setattr("grader.read.sniff.FILE_BYTES", 3 * 2**20)
     require_zip(b"PK\x03\x04" + bytes(3 * 2**20 - 4))
-    with pytest.raises(RefusedError, match=r"a file of 3 MB \(limit 3 MB\)"):
+    with pytest.raises(RefusedError, match=r"a file of 3 MB \(limit 3 MB\)") as caught:
         require_zip(b"PK\x03\x04" + bytes(3 * 2**20 - 3))
+    assert "Delete pictures" in caught.value.hint
 
 
 def test_parts_are_so_many_and_no_more(monkeypatch):
@@ -265,8 +266,9 @@ def test_more_marks_of_parts_than_two_for_each_are_refused_unlisted(monkeypatch)
     assert len(open_container(b"PK\x01\x02" + archive((1, 1))).members) == 1
     listed = []
     monkeypatch.setattr("grader.read.container.zipfile.ZipFile", lambda *_: listed.append(1))
-    with refuses("more than 1 parts"):
+    with refuses("more than 1 parts") as caught:
         open_container(b"PK\x01\x02" * 3)
+    assert "File, Save As" in caught.value.hint
     assert listed == []
 
 

@@ -7,6 +7,7 @@ import os
 import pickle
 import subprocess
 import sys
+import threading
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from multiprocessing import get_context
 from types import SimpleNamespace
@@ -169,6 +170,60 @@ def test_a_process_that_cannot_start_is_our_failure():
         reader.read(ReadRequest("w.xlsx", b"x"))
 
 
+def test_a_process_that_dies_says_nothing_of_its_own(capfd):
+    """The traceback of a reading process is nothing that who grades should see."""
+    with pytest.raises(ReaderFailedError), Reader(command="1/0") as reader:
+        reader.read(ReadRequest("w.xlsx", b"x"))
+    assert capfd.readouterr() == ("", "")
+
+
+def test_a_reader_that_was_not_used_has_nothing_to_end():
+    with Reader() as reader:
+        reader.close()
+
+
+def test_a_process_has_so_long_to_start_and_to_read_and_no_program_waits_for_it(monkeypatch):
+    alarms = []
+
+    class Alarm(threading.Timer):
+        def start(self):
+            alarms.append((self.interval, self.daemon))
+            super().start()
+
+    monkeypatch.setattr(worker_module.threading, "Timer", Alarm)
+    with Reader(wall_s=77.0) as reader, pytest.raises(UnreadableError):
+        reader.read(ReadRequest("w.xlsx", b"x"))
+    assert alarms == [(limits.START_S, True), (77.0, True)]
+
+
+def test_a_file_of_the_largest_size_is_read_in_the_process_and_a_larger_one_is_not_even_sent(monkeypatch):
+    reader, sent = Reader(), []
+    monkeypatch.setattr(limits, "FILE_BYTES", 3)
+    monkeypatch.setattr(reader, "_ask", lambda request: sent.append(request.data) or ("w", "x", "y"))
+    for data in (b"abc", b"abcd"):
+        with pytest.raises(UnreadableError):
+            reader.read(ReadRequest("w.xlsx", data))
+    assert sent == [b"abc"]
+
+
+def test_the_process_finds_packages_where_this_one_does(monkeypatch, tmp_path, good_bytes):
+    (tmp_path / "only_here.py").touch()
+    monkeypatch.syspath_prepend(tmp_path)
+    with Reader(command=f"import only_here; {worker_module._COMMAND}") as reader:
+        assert reader.read(ReadRequest("w.xlsx", good_bytes)).name == "w.xlsx"
+
+
+def test_the_process_has_the_environment_of_this_one_and_writes_and_reserves_little(monkeypatch):
+    monkeypatch.setattr(sys, "path", ["", "there"])
+    monkeypatch.setattr(os, "environ", {"LANG": "C", "PYTHONPATH": "elsewhere"})
+    assert worker_module._environment() == {
+        "LANG": "C",
+        "PYTHONPATH": f".{os.pathsep}there",
+        "OPENBLAS_NUM_THREADS": "1",
+        "PYTHONDONTWRITEBYTECODE": "1",
+    }
+
+
 def test_only_the_process_that_started_a_reader_ends_it(good_bytes):
     """A forked child would end its parent's."""
     with Reader() as reader:
@@ -191,6 +246,37 @@ def test_nothing_but_cells_is_taken_from_the_process(answer):
     assert worker_module._unpickled(b"no pickle") is None
 
 
+# ---------------------------------------------------------------- messages
+
+
+def stream_of(*messages: bytes) -> io.BytesIO:
+    stream = io.BytesIO()
+    for message in messages:
+        worker_module._send(stream, message)
+    stream.seek(0)
+    return stream
+
+
+def test_messages_arrive_whole_one_after_another():
+    messages = [b"", b"a", bytes(300)]
+    stream = stream_of(*messages)
+    assert [worker_module._received(stream) for _ in range(4)] == [*messages, None]
+
+
+def test_a_message_that_breaks_off_is_none():
+    sent = stream_of(b"abc").getvalue()
+    assert len(sent) == 11
+    assert [worker_module._received(io.BytesIO(sent[:length])) for length in range(11)] == [None] * 11
+
+
+def test_a_message_is_so_long_and_a_longer_one_is_not_even_read(monkeypatch):
+    monkeypatch.setattr(limits, "ANSWER_BYTES", 3)
+    assert worker_module._received(stream_of(b"abc")) == b"abc"
+    longer = stream_of(b"abcd")
+    assert worker_module._received(longer) is None
+    assert longer.tell() == 8
+
+
 # ---------------------------------------------------------------- inside the process
 
 
@@ -200,28 +286,28 @@ class FakeLimits:
     RLIM_INFINITY = -1
     RLIMIT_AS, RLIMIT_FSIZE, RLIMIT_CORE, RLIMIT_CPU = range(4)
 
-    def __init__(self, hard=-1, refuses=False):
-        self.set, self._hard, self._refuses = {}, hard, refuses
+    def __init__(self, *hard, refuses=None):
+        self.set, self._hard, self._refuses = {}, hard or (-1,) * 4, refuses
 
     def getrlimit(self, which):
-        return self._hard, self._hard
+        return -1, self._hard[which]
 
     def setrlimit(self, which, pair):
-        if self._refuses:
-            raise ValueError("not here")
+        if self._refuses is not None:
+            raise self._refuses
         self.set[which] = pair
 
 
 @pytest.mark.parametrize(("hard", "memory"), [(-1, limits.MEMORY_BYTES), (1000, 1000)])
 def test_the_process_limits_itself(monkeypatch, hard, memory):
-    fake = FakeLimits(hard)
+    fake = FakeLimits(hard, -1, -1, 3600)
     monkeypatch.setattr(worker_module, "resource", fake)
     worker_module.limit_process()
     assert fake.set == {fake.RLIMIT_AS: (memory, memory), fake.RLIMIT_FSIZE: (0, 0), fake.RLIMIT_CORE: (0, 0)}
     worker_module.limit_cpu(5)
     soft, kept = fake.set[fake.RLIMIT_CPU]
-    assert soft > 5
-    assert kept == hard
+    assert 5 < soft < 3600
+    assert kept == 3600
 
 
 def test_a_file_has_its_seconds_on_top_of_what_the_process_has_used(monkeypatch):
@@ -232,17 +318,15 @@ def test_a_file_has_its_seconds_on_top_of_what_the_process_has_used(monkeypatch)
     assert fake.set == {fake.RLIMIT_CPU: (9, -1)}
 
 
-@pytest.mark.parametrize("fake", [FakeLimits(refuses=True), None])
+@pytest.mark.parametrize("fake", [FakeLimits(refuses=ValueError()), FakeLimits(refuses=OSError()), None])
 def test_a_system_without_limits_reads_all_the_same(monkeypatch, fake):
     monkeypatch.setattr(worker_module, "resource", fake)
     worker_module.limit_process()
 
 
 def test_the_process_answers_until_its_pipe_ends(monkeypatch, good_bytes):
-    requests, answers = io.BytesIO(), io.BytesIO()
-    for data in (good_bytes, b""):
-        worker_module._send(requests, pickle.dumps(ReadRequest("w.xlsx", data)))
-    requests.seek(0)
+    requests = stream_of(*(pickle.dumps(ReadRequest("w.xlsx", data)) for data in (good_bytes, b"")))
+    answers = io.BytesIO()
     monkeypatch.setattr(sys, "stdin", SimpleNamespace(buffer=requests))
     monkeypatch.setattr(sys, "stdout", SimpleNamespace(buffer=answers))
     monkeypatch.setattr(worker_module, "resource", FakeLimits())
