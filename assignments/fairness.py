@@ -21,6 +21,7 @@ from assignments.errors import NoVariantError, UnfairError
 from assignments.film import foresee
 from assignments.key import stick_px, true_value
 from assignments.model import Assignment, Question, Variant
+from assignments.textbook import textbook_of
 from assignments.variants import draw_variant, given_values
 from vml_course.errors import VmlError
 from vml_course.kinetics.calibrate import calibrate
@@ -94,8 +95,10 @@ def predict(assignment: Assignment, variant: Variant) -> Prediction:
 
 def precision(assignment: Assignment, truth: Truth, found: ImpactSolution) -> Prediction:
     """Return what is true of the conclusions, and how sharply they were found."""
-    asked = [question.id for question in conclusions(assignment) if question.id in found.estimates]
-    return Prediction({q: true_value(q, truth) for q in asked}, {q: found.estimates[q].sd for q in asked})
+    every = [question.id for question in assignment.questions]
+    solved = textbook_of(truth.scene).solved(found.estimates, every, truth.given)
+    asked = [question.id for question in conclusions(assignment) if question.id in solved]
+    return Prediction({q: true_value(q, truth) for q in asked}, {q: solved[q].sd for q in asked})
 
 
 def hold_fair(assignment: Assignment, prediction: Prediction) -> None:

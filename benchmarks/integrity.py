@@ -32,7 +32,8 @@ from assignments.load import load_assignment
 from assignments.variants import draw_variant, given_values
 from assignments.workbook import fill_workbook, write_workbook
 from grader.integrity import LINKS, HandedIn, compare
-from grader.read import ReadRequest, claims_of, find_submission, read_workbook
+from grader.read import ReadRequest, read_workbook
+from grader.read.locate import claims_of, find_submission
 from vml_course.executors import each_done, open_executor
 
 COPIES = 5  # of each kind, in a copied class

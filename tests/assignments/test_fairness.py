@@ -6,7 +6,7 @@ import pytest
 
 import assignments.fairness
 from assignments.errors import NoVariantError, UnfairError
-from assignments.fairness import Prediction, allowance, fair_variant, hold_fair, predict
+from assignments.fairness import Prediction, allowance, conclusions, fair_variant, hold_fair, predict
 from assignments.load import assignment_ids, load_assignment
 from assignments.variants import draw_variant
 
@@ -24,7 +24,7 @@ def test_a_prediction_is_the_same_every_time() -> None:
 def test_every_assignment_of_the_catalogue_gives_fair_variants(name: str) -> None:
     assignment = load_assignment(name)
     fair = fair_variant(assignment, SECRET, "s1")
-    assert fair.prediction.sd
+    assert set(fair.prediction.sd) == {question.id for question in conclusions(assignment)}
     hold_fair(assignment, fair.prediction)
 
 
