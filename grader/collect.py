@@ -64,7 +64,7 @@ class Collected:
     def needs_attention(self) -> bool:
         """Whether a person has to say something, now or since it came first."""
         status = self.before or self.status
-        return status not in {"matched", "collected", "graded"}
+        return status not in {"matched", "collected", "graded", "settled"}
 
 
 @dataclass(frozen=True)

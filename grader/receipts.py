@@ -12,7 +12,7 @@ from assignments.terms import Terms
 from grader import tables
 from grader.events import note, now
 
-Status = Literal["collected", "graded", "unreadable", "unmatched", "conflict", "too large"]
+Status = Literal["collected", "graded", "unreadable", "unmatched", "conflict", "settled", "too large"]
 
 WAITING: tuple[Status, ...] = ("unreadable", "unmatched", "conflict", "too large")
 """What a person has to look at."""
@@ -118,6 +118,7 @@ def claim_receipt(connection: Connection, arrived: Arrived) -> Receipt:
     """Write down that a person said whose a file is, and return its receipt, as it is then.
 
     A file that came in before and waits, nobody knowing whose it is, keeps its receipt with the platform's date.
+    Where workbook and platform named different students, that is settled as well: nobody has to look again.
     """
     table = tables.receipt
     student = connection.scalar(select(tables.student.c.id).where(tables.student.c.pid == arrived.pid))
@@ -128,6 +129,9 @@ def claim_receipt(connection: Connection, arrived: Arrived) -> Receipt:
     at = add_receipt(connection, arrived) if known is None else int(known)
     told = {"student_id": student, "assignment": arrived.assignment, "told_by": arrived.told_by}
     connection.execute(update(table).where(table.c.id == at).values(status="collected", reason="", **told))
+    same = (table.c.file_sha256 == arrived.file_sha256) & (table.c.assignment == arrived.assignment)
+    conflicts = update(table).where(same & (table.c.status == "conflict"))
+    connection.execute(conflicts.values(status="settled", told_by=arrived.told_by))
     said = {"assignment": arrived.assignment, "pid": arrived.pid, "who": arrived.told_by}
     note(connection, "told-whose", arrived.file_sha256, said)
     return _receipt(connection.execute(_with_pid().where(table.c.id == at)).mappings().one())

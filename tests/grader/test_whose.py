@@ -10,7 +10,7 @@ import pytest
 from grader.collect import collect
 from grader.errors import NoKeyError
 from grader.gradebook import Gradebook
-from grader.grading import Whose, grade_again, grade_files
+from grader.grading import Whose, grade_again, grade_files, waiting_files
 from vml_course.cli import run
 from vml_course.errors import InputError
 
@@ -76,6 +76,20 @@ def test_a_student_without_a_variant_has_nothing_to_be_graded_by(term, rebuilt) 
         grade_files(term.course, [rebuilt], whose=Whose("s99", term.assignment.id, "ann"))
     with pytest.raises(NoKeyError):
         grade_files(term.course, [rebuilt], whose=Whose(term.pids[0], "two-pucks", "ann"))
+
+
+def test_a_conflict_that_a_person_has_settled_waits_no_more(term) -> None:
+    """One student handed in another one's workbook: it is its owner's, and nobody has to look again."""
+    download = term.download(**{"s_902_1_lab.xlsx": term.file(0)})
+    (found,) = collect(term.course, term.assignment.id, download)
+    assert (found.status, waiting_files(term.course, term.assignment.id)) == ("conflict", 1)
+    theirs = term.course.folder / "lab.xlsx"
+    theirs.write_bytes(term.file(0))
+    (graded,) = grade_files(term.course, [theirs], whose=_whose(term, 0))
+    assert (graded.status, graded.pid) == ("ok", term.pids[0])
+    assert waiting_files(term.course, term.assignment.id) == 0
+    (again,) = collect(term.course, term.assignment.id, download)
+    assert (again.status, again.before, again.needs_attention) == ("duplicate", "settled", False)
 
 
 def test_at_the_prompt(term, rebuilt, capsys) -> None:
