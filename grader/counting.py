@@ -26,7 +26,7 @@ class Standing:
     may_hand_in: bool
 
 
-def standing(row: Row | None, terms: Terms, due: str, *, is_over: bool) -> Standing:
+def standing(row: Row | None, terms: Terms, due: str, closes: str = "", *, is_over: bool) -> Standing:
     """Say where a student stands.
 
     Parameters
@@ -37,12 +37,16 @@ def standing(row: Row | None, terms: Terms, due: str, *, is_over: bool) -> Stand
         With the student's extensions.
     due : str
         The due date in words, "" when there is none.
+    closes : str
+        A sentence on the last moment, "" when there is none.
     is_over : bool
         Whether the last moment has passed.
     """
     used = row.attempts if row else 1
     left = max(terms.attempts - used, 0) if terms.attempts else None
-    sentences = [f"Due: {due}.", "" if is_over else late_text(terms.late)] if due else []
+    sentences = [f"Due: {due}."] if due else []
+    if not is_over:
+        sentences += [late_text(terms.late) if due else "", closes]
     sentences += _lateness(row, terms) if row else []
     sentences.append(_attempts(used, left, terms, is_over=is_over))
     if row and row.ignored:

@@ -69,6 +69,8 @@ class Report:
         With the student's extensions.
     due : str
         The due date in words, "" when there is none.
+    closes : str
+        A sentence on the last moment to hand in, "" when there is none.
     is_over : bool
         Whether the last moment to hand in has passed.
     frame : ImpactFrame, optional
@@ -85,6 +87,7 @@ class Report:
     row: Row | None = None
     terms: Terms = field(default_factory=Terms)
     due: str = ""
+    closes: str = ""
     is_over: bool = False
     frame: ImpactFrame | None = None
 
@@ -131,7 +134,7 @@ def _total(report: Report) -> tuple[float, float, bool]:
 
 def standing_of(report: Report) -> Standing:
     """Say where the student stands."""
-    return standing(report.row, report.terms, report.due, is_over=report.is_over)
+    return standing(report.row, report.terms, report.due, report.closes, is_over=report.is_over)
 
 
 def steps_of(report: Report) -> tuple[Markup, ...]:

@@ -14,6 +14,7 @@ from assignments.course import Course
 from assignments.load import load_assignment
 from assignments.model import AnswerKey, Assignment
 from assignments.terms import Terms
+from assignments.terms_words import closes_text
 from assignments.variants import signature_of
 from assignments.words import symbol_text
 from grader.adjust import decided
@@ -332,6 +333,7 @@ class Marker:
             show_truth=is_done if self._wanted.show_truth is None else self._wanted.show_truth,
             adjustments=tuple(item.told(symbols.get(item.question, "All together")) for item in row.decisions),
             due=self._course.calendar.due_text(report.assignment.id, report.key.student),
+            closes=closes_text(self._course.calendar, report.assignment.id, report.key.student),
             is_over=is_over,
             frame=impact_frame(self._course.shelf, report.key),
         )

@@ -20,8 +20,8 @@ def terms(attempts=0, counts="newest"):
     return Terms(attempts=attempts, counts=counts)
 
 
-def words(*args, due="", is_over=False):
-    return " ".join(standing(*args, due, is_over=is_over).sentences)
+def words(*args, due="", closes="", is_over=False):
+    return " ".join(standing(*args, due, closes, is_over=is_over).sentences)
 
 
 @pytest.mark.parametrize(
@@ -95,3 +95,10 @@ def test_what_lateness_will_cost_is_told_while_a_due_date_can_be_missed():
     assert words(row(), allowed, due="Friday").startswith(f"Due: Friday. {COSTS} You may")
     assert words(row(), allowed, due="Friday", is_over=True).startswith("Due: Friday. 1 attempt handed in")
     assert COSTS not in words(row(), allowed)
+
+
+def test_the_last_moment_is_told_until_it_has_passed():
+    closes = "Nothing counts that comes after Sunday."
+    assert words(row(), terms(), due="Friday", closes=closes).startswith(f"Due: Friday. {closes} You may")
+    assert words(row(), terms(), closes=closes).startswith(f"{closes} You may")
+    assert closes not in words(row(), terms(), closes=closes, is_over=True)
