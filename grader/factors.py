@@ -104,7 +104,7 @@ def _velocity_names(
     scale = key.truth.get("px_per_m", math.nan)
     fps = key.truth.get("fps", math.nan)
     yield from (("K1", scale), ("K1b", scale**2), ("K1b", 1 / scale), ("K1c", scale / fps))
-    yield from (("K3", 3.28084), ("K3b", 39.3701), ("K4", 100.0), ("K4b", 1000.0), ("K6", -1.0))
+    yield from (("K3", 3.28084), ("K3b", 39.3701), ("K3c", 3.6), ("K4", 100.0), ("K4b", 1000.0), ("K6", -1.0))
     yield from (("K5", 2.0), ("K5b", 0.5))
     own_scale = _own(submission, questions, "px_per_m")
     if own_scale:

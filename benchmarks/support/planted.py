@@ -28,7 +28,7 @@ NOISES_PX = (0.02, 1.0)
 DIGITS = (3, 4)
 SLIP_SHARE = 0.15  # of the planted mistakes
 RIGHT_KINDS = ("told", "formula", "value", "measured", "review")
-SLIPS = ("K1", "K1b", "K1c", "K2", "K2b", "K3", "K3b", "K4", "K4b", "K5", "K5b", "K6", "K9", "K9b", "K9c")
+SLIPS = ("K1", "K1b", "K1c", "K2", "K2b", "K3", "K3b", "K3c", "K4", "K4b", "K5", "K5b", "K6", "K9", "K9b", "K9c")
 SPEEDS, RATES = "velocity", "angular_velocity"
 
 
@@ -148,7 +148,7 @@ def _factor(code, dimension, desk):
     scale, fps = desk.key.truth["px_per_m"], desk.key.truth["fps"]
     speeds = {
         "K1": scale, "K1b": scale**2, "K1c": scale / fps, "K2": 30 / fps, "K2b": 1 / fps, "K3": 3.28084, "K3b": 39.3701,
-        "K4": 100.0, "K4b": 1000.0, "K5": 2.0, "K5b": 0.5, "K6": -1.0,
+        "K3c": 3.6, "K4": 100.0, "K4b": 1000.0, "K5": 2.0, "K5b": 0.5, "K6": -1.0,
     }  # fmt: skip
     rates = {"K2": 30 / fps, "K2b": 1 / fps, "K9": math.degrees(1), "K9b": 30 / math.pi, "K9c": math.radians(1)}
     return {SPEEDS: speeds, RATES: rates}.get(dimension, {}).get(code, 1.0)

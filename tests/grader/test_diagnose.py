@@ -129,6 +129,7 @@ OMEGAS = ("omega1", "omega2")
         (VELOCITIES, 3.28084, "K3"),
         (VELOCITIES, 100.0, "K4"),
         (VELOCITIES, 1000.0, "K4b"),
+        (VELOCITIES, 3.6, "K3c"),
         (VELOCITIES, 2.0, "K5"),
         (VELOCITIES, -1.0, "K6"),
         (OMEGAS, 57.29578, "K9"),

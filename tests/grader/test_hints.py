@@ -15,9 +15,9 @@ from grader.model import Diagnosis, Finding, Grade, Outcome
 # Words of which each hint must hold one: what a student is to look at.
 NAMED = {
     "K1": "pixels", "K1b": "px/m", "K1c": "frame", "K2": "playback", "K2b": "frame number", "K3": "feet",
-    "K3b": "inches", "K4": "centimetres", "K4b": "millimetres", "K5": "diameter", "K5b": "radius", "K6": "sign",
-    "K7": "scale", "K8": "frame rate", "K9": "degrees", "K9b": "revolutions", "K9c": "twice", "K10": "down",
-    "K11": "frame", "K12": "arm", "K13": "exchanged", "K14": "smooth", "K15": "left",
+    "K3b": "inches", "K3c": "kilometres per hour", "K4": "centimetres", "K4b": "millimetres", "K5": "diameter",
+    "K5b": "radius", "K6": "sign", "K7": "scale", "K8": "frame rate", "K9": "degrees", "K9b": "revolutions",
+    "K9c": "twice", "K10": "down", "K11": "frame", "K12": "arm", "K13": "exchanged", "K14": "smooth", "K15": "left",
 }  # fmt: skip
 
 
