@@ -240,7 +240,7 @@ class AnswerKey:
     expected_sd : mapping of str to float
         One standard deviation that the reference tracker and solver reached on the very video handed out.
     measured : mapping of str to float
-        What they measured.
+        What they measured, or what follows from it.
     given : mapping of str to float
         The numbers that the student was told, by symbol (`m`, `L`, `D` ...), SI units.
     truth : mapping of str to float

@@ -35,9 +35,9 @@ MEASURED = (
         lambda met: met.impact.omega_before_rad_s * _arm(met.given),
         may_rest=True,
         symbol="omega1",
-        solved=_arm,
+        factor=_arm,
     ),
-    Measured("v_c2", "v2", lambda met: met.impact.omega_after_rad_s * _arm(met.given), symbol="omega2", solved=_arm),
+    Measured("v_c2", "v2", lambda met: met.impact.omega_after_rad_s * _arm(met.given), symbol="omega2", factor=_arm),
     Measured("v_b1", "u1", lambda met: _struck(met, met.impact.struck_before_m_s), may_rest=True),
     Measured("v_b2", "u2", lambda met: _struck(met, met.impact.struck_after_m_s)),
 )

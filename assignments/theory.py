@@ -50,7 +50,7 @@ class Measured:
         Whether it may be left unasked where the body is at rest; it is 0 then.
     symbol : str
         The solver's symbol of it, "" where that is the question's id.
-    solved : callable
+    factor : callable
         What the solver's estimate is multiplied with, of the given numbers: -1 where its sign is another one.
     """
 
@@ -59,7 +59,7 @@ class Measured:
     true: Callable[[Met], float]
     may_rest: bool = False
     symbol: str = ""
-    solved: Callable[[Values], float] = lambda _: 1.0
+    factor: Callable[[Values], float] = lambda _: 1.0
 
 
 @dataclass(frozen=True)
@@ -212,22 +212,28 @@ class Textbook:
         """Return a solver's estimates by question, in the signs of this textbook, beside its other ones.
 
         A conclusion that is asked and that the solver does not name follows by its formula; its standard deviation is
-        that of measured numbers that are off independently of one another.
+        that of measured numbers that are off independently of one another, NaN where one is not known.
         """
         found, asked = dict(estimates), set(asked)
         for item in self.measured:
-            if (item.symbol or item.id) in estimates:
-                one, factor = estimates[item.symbol or item.id], item.solved(given)
+            symbol = item.symbol or item.id
+            if symbol in estimates:
+                one, factor = estimates[symbol], item.factor(given)
                 found[item.id] = Estimate(factor * one.value, abs(factor) * one.sd)
         fields_of = {item.field: found[item.id] for item in self.measured if item.id in found.keys() & asked}
-        values = self.resting(asked) | {name: one.value for name, one in fields_of.items()}
         for conclusion in self.concluded:
-            value = value_of(conclusion.formula, self.record(values, given))
-            if conclusion.id in asked - found.keys() and math.isfinite(value):
-                moved = ({**values, name: one.value + one.sd} for name, one in fields_of.items())
-                moves = (value_of(conclusion.formula, self.record(numbers, given)) - value for numbers in moved)
-                found[conclusion.id] = Estimate(value, math.hypot(*filter(math.isfinite, moves)))
+            if conclusion.id in asked - found.keys():
+                follows = self._follows(conclusion.formula, fields_of, self.resting(asked), given)
+                found |= {conclusion.id: follows} if math.isfinite(follows.value) else {}
         return found
+
+    def _follows(self, formula: Formula, measured: Mapping[str, Estimate], resting: Values, given: Values) -> Estimate:
+        """Return what a formula gives; each number that is off by its sd moves it."""
+        values = {**resting, **{name: one.value for name, one in measured.items()}}
+        value = value_of(formula, self.record(values, given))
+        moved = ({**values, name: one.value + one.sd} for name, one in measured.items())
+        moves = (value_of(formula, self.record(numbers, given)) - value for numbers in moved)
+        return Estimate(value, math.hypot(*moves))
 
     def numbers_of(self, met: Met) -> Numbers:
         """Return the numbers of an impact."""

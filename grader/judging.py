@@ -22,7 +22,7 @@ PARTIAL_REACH = 2.0
 UNIT_SHARE = 0.1
 
 # Slips of the scale and of the clock: an error of one source, which costs points there, once.
-_OF_LENGTH = frozenset({"K1", "K1b", "K3", "K3b", "K4", "K4b", "K5", "K5b", "K7"})
+_OF_LENGTH = frozenset({"K1", "K1b", "K3", "K3b", "K3c", "K4", "K4b", "K5", "K5b", "K7"})
 _OF_TIME = frozenset({"K2", "K2b", "K8"})
 # Pixels are no slip but a step left out: following it for full points would make calibration worthless.
 _SKIPPED = frozenset({"K1", "K1b", "K1c"})

@@ -103,7 +103,7 @@ class Wanted:
 
 @dataclass(frozen=True)
 class Whose:
-    """Whose files are, where a person says so: their own codes are missing, damaged or unreadable."""
+    """Whose files are, where a person says so: their codes are missing, or name another student than the platform."""
 
     student: str
     assignment: str

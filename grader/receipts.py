@@ -118,7 +118,6 @@ def claim_receipt(connection: Connection, arrived: Arrived) -> Receipt:
     """Write down that a person said whose a file is, and return its receipt, as it is then.
 
     A file that came in before and waits, nobody knowing whose it is, keeps its receipt with the platform's date.
-    Where workbook and platform named different students, that is settled as well: nobody has to look again.
     """
     table = tables.receipt
     student = connection.scalar(select(tables.student.c.id).where(tables.student.c.pid == arrived.pid))
@@ -129,9 +128,6 @@ def claim_receipt(connection: Connection, arrived: Arrived) -> Receipt:
     at = add_receipt(connection, arrived) if known is None else int(known)
     told = {"student_id": student, "assignment": arrived.assignment, "told_by": arrived.told_by}
     connection.execute(update(table).where(table.c.id == at).values(status="collected", reason="", **told))
-    same = (table.c.file_sha256 == arrived.file_sha256) & (table.c.assignment == arrived.assignment)
-    conflicts = update(table).where(same & (table.c.status == "conflict"))
-    connection.execute(conflicts.values(status="settled", told_by=arrived.told_by))
     said = {"assignment": arrived.assignment, "pid": arrived.pid, "who": arrived.told_by}
     note(connection, "told-whose", arrived.file_sha256, said)
     return _receipt(connection.execute(_with_pid().where(table.c.id == at)).mappings().one())
@@ -147,13 +143,32 @@ def _with_pid() -> Select[Any]:
 def settle_receipt(
     connection: Connection, receipt: int, status: Status, reason: str = "", submission: int | None = None
 ) -> None:
-    """Write what became of a file; what was graded is known to be its student's."""
+    """Write what became of a file; what was graded is known to be its student's.
+
+    Once it is graded because a person said whose it is, nobody has to look any more at other arrivals of the same
+    bytes: whom a platform named, and what a person said before.
+    """
     table = tables.receipt
     told: dict[str, object] = {"status": status, "reason": reason}
     if submission is not None:
         whose = _whose(connection, submission)
         told |= {"submission_id": submission, "student_id": whose[0], "assignment": whose[1]}
     connection.execute(update(table).where(table.c.id == receipt).values(**told))
+    if submission is not None:
+        _settle_others(connection, receipt)
+
+
+def _settle_others(connection: Connection, graded: int) -> None:
+    table = tables.receipt
+    one = connection.execute(select(table).where(table.c.id == graded)).mappings().one()
+    if not one["told_by"]:
+        return
+    same = (table.c.file_sha256 == one["file_sha256"]) & (table.c.assignment == one["assignment"])
+    refused = (table.c.status == "unreadable") & (table.c.told_by != "")
+    others = connection.scalars(select(table.c.id).where(same & ((table.c.status == "conflict") | refused))).all()
+    if others:
+        connection.execute(update(table).where(table.c.id.in_(others)).values(status="settled"))
+        note(connection, "settled", one["file_sha256"], {"receipts": list(others), "who": one["told_by"]})
 
 
 def _whose(connection: Connection, submission: int) -> tuple[int, str]:

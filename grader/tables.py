@@ -96,7 +96,7 @@ receipt = Table(
     _to("student", nullable=True),  # whom the platform names
     _to("submission", nullable=True),  # what it turned out to be
     Column("assignment", String(80), nullable=False, server_default=""),
-    Column("status", String(20), nullable=False),  # collected, graded, unreadable, unmatched, closed
+    Column("status", String(20), nullable=False),  # grader.receipts.Status
     Column("reason", Text, nullable=False, server_default=""),
     Column("told_by", Text, nullable=False, server_default=""),  # the person who said whose it is
 )

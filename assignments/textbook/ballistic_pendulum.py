@@ -148,7 +148,7 @@ TEXTBOOK = Textbook(
     model=MODEL,
     numbers=PendulumNumbers,
     measured=(
-        Measured("v_b1", "v", _speed, symbol="v1"),
+        Measured("v_b1", "v", _speed, symbol="v1"),  # of film, momentum and rise at once: the sharpest there is
         Measured("omega2", "omega2", lambda met: met.impact.omega_after_rad_s),
         Measured("theta_max", "theta", _highest),
     ),

@@ -119,9 +119,9 @@ TEXTBOOK = Textbook(
     model="free-rod",
     numbers=RodNumbers,
     measured=(
-        Measured("v_b1", "u1", lambda met: _towards(met, met.impact.struck_before_m_s), solved=_reversed),
-        Measured("v_b2", "u2", lambda met: _towards(met, met.impact.struck_after_m_s), solved=_reversed),
-        Measured("v_g2", "g2", lambda met: _towards(met, met.impact.after[met.impact.striker, :2]), solved=_reversed),
+        Measured("v_b1", "u1", lambda met: _towards(met, met.impact.struck_before_m_s), factor=_reversed),
+        Measured("v_b2", "u2", lambda met: _towards(met, met.impact.struck_after_m_s), factor=_reversed),
+        Measured("v_g2", "g2", lambda met: _towards(met, met.impact.after[met.impact.striker, :2]), factor=_reversed),
         Measured("omega2", "omega2", lambda met: met.impact.omega_after_rad_s),
     ),
     concluded=(

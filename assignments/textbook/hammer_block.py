@@ -63,7 +63,7 @@ TEXTBOOK = Textbook(
             "a",
             lambda met: met.parameters["friction"] * STANDARD_GRAVITY,
             symbol="mu",
-            solved=lambda given: given.get("g", STANDARD_GRAVITY),
+            factor=lambda _: STANDARD_GRAVITY,
         ),
     ),
     concluded=(*CONCLUDED, Concluded("mu", "{a_b} / {g}", lambda n: n.mu, unknown("mu"))),

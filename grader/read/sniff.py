@@ -66,7 +66,7 @@ def _text(data: bytes) -> RefusedError:
     head = data[:4096]
     start = head.lstrip(b"\xef\xbb\xbf \t\r\n").lower()
     if start.startswith((b"<!doctype html", b"<html", b"<table")):
-        return RefusedError("a web page", f"{OUR_TEMPLATE} Is this it? {SAVE_AS}")
+        return RefusedError("a web page", f"{OUR_TEMPLATE} If this is it, saved as a web page: {SAVE_AS}")
     if start.startswith(b"{") and b"doc_id" in start:
         return RefusedError("a link to an online document", "There choose File, Download, Microsoft Excel (.xlsx).")
     if start.startswith(b"<?xml"):

@@ -7,10 +7,11 @@ import math
 import numpy as np
 import pytest
 
-from assignments.fairness import blurred_track, solve
+from assignments.fairness import allowance, blurred_track, solve
 from assignments.film import foresee
 from assignments.key import answer_key, true_value
 from assignments.load import assignment_ids, load_assignment
+from assignments.mistakes import STANDARD_GRAVITY
 from assignments.textbook import textbook, textbook_of
 from assignments.theory import promised
 from assignments.variants import draw_variant
@@ -38,8 +39,8 @@ def test_written_rates_make_up_speeds_on_the_arm_that_is_given() -> None:
 
 def test_a_number_that_the_solver_calls_otherwise_is_kept_under_its_question() -> None:
     estimates = {"mu": Estimate(0.5, 0.01), "omega2": Estimate(-4.0, 0.1), "v1": Estimate(9.0, 0.2)}
-    slowing = textbook("hammer-block").solved(estimates, ["a_b"], {"g": 10.0})["a_b"]
-    assert (slowing.value, slowing.sd) == (5.0, pytest.approx(0.1))
+    slowing = textbook("hammer-block").solved(estimates, ["a_b"], {})["a_b"]
+    assert (slowing.value, slowing.sd) == (0.5 * STANDARD_GRAVITY, 0.01 * STANDARD_GRAVITY)
     speed = textbook("fixed-pivot").solved(estimates, ["v_c2"], {"a": 0.5, "L": 0.8})["v_c2"]
     assert (speed.value, speed.sd) == (-2.0, 0.05)
     assert textbook("ballistic-pendulum").solved(estimates, ["v_b1"], {})["v_b1"] == Estimate(9.0, 0.2)
@@ -60,11 +61,12 @@ def test_a_conclusion_that_is_asked_follows_by_its_formula() -> None:
     assert found["s2"].sd == pytest.approx(math.hypot(0.03, 0.12))
 
 
-def test_a_number_so_vague_that_nothing_follows_widens_nothing() -> None:
+def test_where_a_number_is_too_vague_it_is_not_known_how_vague_the_conclusion_is() -> None:
     """mu = |v_t2 - v_t1| / (v_b2 - v_b1); with v_b2 off by its sd, nothing was thrown up."""
     sharp = {"v_t1": Estimate(1.0, 0.0), "v_t2": Estimate(0.0, 0.1), "v_b1": Estimate(-1.0, 0.0)}
     found = textbook("spin-bounce").solved({**sharp, "v_b2": Estimate(-2.0, 1.0)}, [*sharp, "v_b2", "mu"], {})["mu"]
-    assert (found.value, found.sd) == (-1.0, pytest.approx(0.1))
+    assert found.value == -1.0
+    assert math.isnan(found.sd)
 
 
 @pytest.mark.parametrize(
@@ -91,4 +93,6 @@ def test_the_key_knows_how_sharply_every_answer_can_be_measured(name: str) -> No
         if question.id in {"px_per_m", "fps"}:
             continue
         off = key.measured[question.id] - true_value(question.id, truth)
-        assert abs(off) <= 5 * key.expected_sd[question.id] + 1e-9, question.id
+        sd = key.expected_sd[question.id]
+        assert abs(off) <= 5 * sd + 1e-9, question.id
+        assert 3 * sd <= allowance(question, true_value(question.id, truth)), question.id

@@ -78,17 +78,32 @@ def test_a_student_without_a_variant_has_nothing_to_be_graded_by(term, rebuilt) 
         grade_files(term.course, [rebuilt], whose=Whose(term.pids[0], "two-pucks", "ann"))
 
 
-def test_a_conflict_that_a_person_has_settled_waits_no_more(term) -> None:
-    """One student handed in another one's workbook: it is its owner's, and nobody has to look again."""
-    download = term.download(**{"s_902_1_lab.xlsx": term.file(0)})
-    (found,) = collect(term.course, term.assignment.id, download)
-    assert (found.status, waiting_files(term.course, term.assignment.id)) == ("conflict", 1)
-    theirs = term.course.folder / "lab.xlsx"
-    theirs.write_bytes(term.file(0))
-    (graded,) = grade_files(term.course, [theirs], whose=_whose(term, 0))
+@pytest.fixture
+def copied(term):
+    """Student 1 handed in the workbook of student 0; its file."""
+    collect(term.course, term.assignment.id, term.download(**{"s_902_1_lab.xlsx": term.file(0)}))
+    path = term.course.folder / "lab.xlsx"
+    path.write_bytes(term.file(0))
+    return path
+
+
+@pytest.mark.parametrize("first", [(), (1,), (2,), (2, 1)])
+def test_a_conflict_waits_until_it_is_graded_as_somebodys(term, copied, first) -> None:
+    """Whoever is named wrongly before: only the owner's variant fits the numbers."""
+    for other in first:
+        (refused,) = grade_files(term.course, [copied], whose=_whose(term, other))
+        assert refused.status == "unreadable"
+        assert waiting_files(term.course, term.assignment.id) >= 1
+    (graded,) = grade_files(term.course, [copied], whose=_whose(term, 0))
     assert (graded.status, graded.pid) == ("ok", term.pids[0])
     assert waiting_files(term.course, term.assignment.id) == 0
-    (again,) = collect(term.course, term.assignment.id, download)
+    with Gradebook.open(term.course) as book:
+        assert book.is_whole()
+
+
+def test_a_conflict_that_is_settled_is_none_when_it_comes_again(term, copied) -> None:
+    grade_files(term.course, [copied], whose=_whose(term, 0))
+    (again,) = collect(term.course, term.assignment.id, term.download(**{"s_902_1_lab.xlsx": term.file(0)}))
     assert (again.status, again.before, again.needs_attention) == ("duplicate", "settled", False)
 
 

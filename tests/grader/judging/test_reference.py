@@ -134,7 +134,7 @@ def test_the_solver_is_told_what_scene_and_assignment_declare(kick, kit, monkeyp
 
 
 def test_an_estimate_is_kept_in_the_textbooks_sign(bench_of, kit, monkeypatch):
-    solved = {item.id: item.solved({}) for item in textbook_of("struck_rod").measured}
+    solved = {item.id: item.factor({}) for item in textbook_of("struck_rod").measured}
     assert -1.0 in solved.values()
     rod = bench_of("struck-rod", {}, **dict.fromkeys(("u1", "u2", "g2", "omega2"), 1.0))
     model = SimpleNamespace(given=(), optional=(), solve=Mock())

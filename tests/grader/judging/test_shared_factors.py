@@ -42,7 +42,7 @@ def test_a_factor_with_several_names_is_given_none(bench):
     assert judged(bench, "v_b2", of("K5", "K7")).mistake == ""
 
 
-LENGTHS = ["K3", "K3b", "K4", "K4b", "K5", "K5b", "K7"]
+LENGTHS = ["K3", "K3b", "K3c", "K4", "K4b", "K5", "K5b", "K7"]
 TIMES = ["K2", "K2b", "K8"]
 
 
