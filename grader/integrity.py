@@ -41,7 +41,7 @@ SELDOM = 0.03
 """None came up in 100 honest classes of 300, 4.5 million pairs of tables (`benchmarks/integrity.py --classes 100`).
 
 So it is 95 % sure that fewer classes than this, 3 in 100, have any (the rule of three). Those classes had noise of
-their own but one set of variants; the benchmark has drawn others for every ten classes since: none in 10 of them.
+their own, and every ten of them variants of their own.
 """
 
 BY_CHANCE = 0.01
