@@ -62,13 +62,16 @@ def _factor(
 
 
 def _ratios(submission: Submission, key: AnswerKey, asked: Iterable[Question]) -> dict[str, float]:
-    truths = {q.id: key.values[q.id] for q in asked if q.id in key.values}
-    largest = max(map(abs, truths.values()), default=0.0)
+    """Return the ratios to the truth; a number that is nearly 0 beside others of its kind tells of no factor."""
+    known = [question for question in asked if question.id in key.values]
+    largest: dict[str, float] = {}
+    for question in known:
+        size = abs(key.values[question.id])
+        largest[question.dimension] = max(size, largest.get(question.dimension, 0.0))
     ratios = {}
-    for question in asked:
-        stated = state(submission.answer(question.id), question)
-        truth = truths.get(question.id, 0.0)
-        if isinstance(stated, Stated) and abs(truth) > 0.05 * largest:
+    for question in known:
+        stated, truth = state(submission.answer(question.id), question), key.values[question.id]
+        if isinstance(stated, Stated) and abs(truth) > 0.05 * largest[question.dimension]:
             ratios[question.id] = stated.value / truth
     return {question_id: ratio for question_id, ratio in ratios.items() if 1 / _FAR < abs(ratio) < _FAR}
 

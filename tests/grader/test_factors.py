@@ -211,6 +211,17 @@ def test_a_speed_that_is_concluded_shares_no_factor_with_one_that_is_measured(ki
     assert found == ()
 
 
+def test_a_slow_pendulum_and_a_fast_pellet_share_a_clock(kit):
+    """A rate of half a radian a second is no small number beside 12 m/s: they are of different kinds."""
+    assignment = load_assignment("ballistic-pendulum")
+    questions = {question.id: question for question in assignment.questions}
+    true = {"v_b1": 12.0, "omega2": 0.5}
+    key = kit.key_of(kit.impact(), values=true, scene=assignment.scene)
+    frames = {name: value / FPS for name, value in true.items()}
+    (found,) = find_factors(kit.submission_of(assignment, frames), key, questions)
+    assert (found.codes, set(found.ids)) == (("K2b",), set(true))
+
+
 def test_facts_that_a_key_does_not_hold_name_nothing(find):
     bare = {"truth": {}}
     assert find(dict.fromkeys(SPEEDS, SCALE), key_changes=bare) == ()
