@@ -99,6 +99,22 @@ def test_a_truth_near_zero_tells_of_no_factor(find):
     assert found.ids == SPEEDS
 
 
+@pytest.mark.parametrize(
+    ("moving", "ids"),
+    [
+        ({"v_f1": 10.0, "v_f2": 8.0, "v_b2": 0.3}, ("v_f1", "v_f2")),
+        ({"v_f1": 10.0, "v_f2": 8.0, "v_b2": 0.6}, SPEEDS),
+        ({"v_f1": 0.03, "v_f2": 0.02, "v_b2": 0.04}, SPEEDS),  # all of them slow
+        ({"v_f1": 0.0, "v_f2": 0.0, "v_b2": 0.0}, None),
+    ],
+)
+def test_small_is_what_is_a_twentieth_of_the_largest_of_its_kind(kit, assignment, moving, ids):
+    key = kit.key_of(kit.impact(), values={**kit.true_values(kit.impact()), **moving})
+    written = kit.submission_of(assignment, {**key.values, **{name: 100.0 * value for name, value in moving.items()}})
+    found = find_factors(written, key, {question.id: question for question in assignment.questions})
+    assert [f.ids for f in found] == ([ids] if ids else [])
+
+
 def test_numbers_beyond_all_units_are_no_slip_of_one(find):
     assert find(dict.fromkeys(SPEEDS, 1e12)) == ()
     assert find(dict.fromkeys(SPEEDS, 1e-12)) == ()
