@@ -7,7 +7,7 @@ scale, shift and time lag are fitted, then the remaining distance is measured in
 from __future__ import annotations
 
 import itertools
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -24,7 +24,10 @@ HOPELESS, CLEARLY = 0.05, 0.2
 """Points are tried the other way round when the rest is more than this part of their paths, and that must be so much
 better."""
 
-_SIGNS = ((1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0))
+Signs = tuple[float, float]
+"""The directions of x and y in a table: 1, or -1 where it is turned round."""
+
+_SIGNS: tuple[Signs, ...] = ((1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0))
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,7 +84,7 @@ class TrajectoryFit:
 @dataclass(frozen=True, eq=False)
 class _Trial:
     lag: float
-    signs: tuple[float, float]
+    signs: Signs
     scale: float
     shift: FloatArray
     rms: float
@@ -179,7 +182,7 @@ def _far(frame: FloatArray, own: FloatArray, true_frame: FloatArray) -> _Search:
 
 def _not_late(best: _Trial, own: FloatArray, at: FloatArray) -> _Trial:
     """Return the fit without a delay, where noise could feign the one that was found."""
-    usual = _trial(0.0, best.signs, own, at, LEAST_ROWS)
+    usual = next(_trials(0.0, (best.signs,), own, at, LEAST_ROWS), None)
     if usual is None:
         return best
     numbers = 2 * int(np.isfinite(own).all(axis=2).sum())
@@ -216,8 +219,8 @@ def _best(
         centre, signs = (best.lag, (best.signs,)) if best else (search.start, _SIGNS)
         for lag in np.arange(centre - reach, centre + reach + step / 2, step):
             at = _shifted(true_frame, truth, frame - lag)
-            for trial in (_trial(float(lag), directions, own, at, search.least) for directions in signs):
-                if trial is not None and (best is None or trial.rms < best.rms):
+            for trial in _trials(float(lag), signs, own, at, search.least):
+                if best is None or trial.rms < best.rms:
                     best = trial
     return best
 
@@ -231,17 +234,20 @@ def _shifted(true_frame: FloatArray, truth: FloatArray, at: FloatArray) -> Float
     return result
 
 
-def _trial(lag: float, signs: tuple[float, float], own: FloatArray, truth: FloatArray, least: float) -> _Trial | None:
-    """Fit one scale and one shift by least squares: truth = scale * own + shift."""
+def _trials(
+    lag: float, directions: Iterable[Signs], own: FloatArray, truth: FloatArray, least: float
+) -> Iterator[_Trial]:
+    """Fit one scale and one shift by least squares for each direction of the axes: truth = scale * own + shift."""
     seen = np.isfinite(own).all(axis=2) & np.isfinite(truth).all(axis=2)
     if np.any(seen, axis=1).sum() < least:
-        return None
-    a = own[seen] * np.array(signs)
-    b = truth[seen]
-    a0, b0 = a - a.mean(axis=0), b - b.mean(axis=0)
-    spread = float((a0**2).sum())
-    scale = float((a0 * b0).sum()) / spread if spread > 0 else 0.0
-    if scale <= 0:
-        return None
-    rms = float(np.sqrt(((a0 * scale - b0) ** 2).sum(axis=1).mean()))
-    return _Trial(lag, signs, scale, b.mean(axis=0) - scale * a.mean(axis=0), rms)
+        return
+    a, b = own[seen], truth[seen]
+    a_mean, b_mean = a.mean(axis=0), b.mean(axis=0)
+    a0, b0 = a - a_mean, b - b_mean
+    spread, along = float((a0**2).sum()), (a0 * b0).sum(axis=0)
+    for signs in directions:
+        scale = float(along @ np.array(signs)) / spread if spread > 0 else 0.0
+        if scale > 0:
+            turned = scale * np.array(signs)
+            rms = float(np.sqrt(((a0 * turned - b0) ** 2).sum(axis=1).mean()))
+            yield _Trial(lag, signs, scale, b_mean - turned * a_mean, rms)
