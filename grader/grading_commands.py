@@ -87,7 +87,7 @@ def grade(
     assignment: Annotated[str, typer.Option(metavar="ID", help="Of what was collected, only this assignment's.")] = "",
     whose: Annotated[
         str,
-        typer.Option(metavar="STUDENT", help="With --assignment: these files are this student's, whatever is in them."),
+        typer.Option(metavar="STUDENT", help="With --assignment: these files are this student's, says who grades."),
     ] = "",
     again: Annotated[
         str, typer.Option(metavar="ID", help="Grade everything of this assignment anew; release says what it changes.")
@@ -109,8 +109,9 @@ def grade(
     of its content: an old file graded again stays old. Files of one student that are named together are taken in the
     order in which they were last changed.
 
-    A workbook that lost its code (rebuilt in another program, its hidden sheet deleted) is graded when you say whose it
-    is: vml grade FILE --whose s03 --assignment soccer-kick. Who said so is written down.
+    A workbook that lost its code (rebuilt in another program, its hidden sheet deleted), or that code and platform give
+    to different students, is graded when you say whose it is: vml grade FILE --whose s03 --assignment soccer-kick. Who
+    said so is written down; numbers of another student's video are not graded.
 
     Example: vml grade returned/*.xlsx --course dynamics-2026
     """
@@ -135,7 +136,7 @@ def grade(
     if as_json:
         print_json([{**asdict(g), "file": str(g.file), "feedback": g.feedback or None} for g in graded])
     else:
-        _print_graded(graded, opened)
+        _print_graded(graded, opened, course)
         waiting = 0 if files or again else waiting_files(opened, assignment)
         if waiting:
             typer.echo(
@@ -145,7 +146,7 @@ def grade(
         raise typer.Exit(1)
 
 
-def _print_graded(graded: Iterable[Graded], course: Course) -> None:
+def _print_graded(graded: Iterable[Graded], course: Course, named: str) -> None:
     from assignments.terms import Terms
     from grader.feedback import points_text
 
@@ -164,7 +165,8 @@ def _print_graded(graded: Iterable[Graded], course: Course) -> None:
     typer.echo(f"{len(graded)} file{'s' if len(graded) > 1 else ''}: {statuses}.")
     assignments = dict.fromkeys(item.assignment_id for item in graded if item.assignment_id)
     if any(course.calendar.terms_of(id_) != Terms() for id_ in assignments):
-        typer.echo("These are the points of each file by itself. What counts in the end: vml gradebook show")
+        typer.echo("These are the points of each file by itself.")
+        typer.echo(f"What counts in the end: vml gradebook show --course {named}")
     for id_ in assignments:
         typer.echo(f"Class page: {course.shelf.place()}/feedback/{id_}/class.html")
 

@@ -129,6 +129,8 @@ def judge_value(asked: Asked, stated: Stated, points: float, spread: float) -> F
     """
     truth, tolerance = truth_of(asked), tolerance_of(asked)
     verdict = max(_verdicts(asked, stated.value, tolerance, spread), key=lambda one: one.share)
+    is_near = _is_near(stated.value, truth, tolerance)
+    remarks = remarks_on_number(stated, asked.question, asked.key, tolerance.half_width, is_near=is_near)
     numbers = {"value": stated.value, "truth": truth, "tolerance": tolerance.half_width}
     if stated.uncertainty:
         numbers |= {"uncertainty": stated.uncertainty, "z": z_score(stated, truth)}
@@ -138,18 +140,7 @@ def judge_value(asked: Asked, stated: Stated, points: float, spread: float) -> F
         outcome=verdict.outcome,
         points=verdict.share * points,
         out_of=points,
-        message=" ".join(
-            [
-                verdict.message,
-                *remarks_on_number(
-                    stated,
-                    asked.question,
-                    asked.key,
-                    tolerance.half_width,
-                    is_near=_is_near(stated.value, truth, tolerance),
-                ),
-            ]
-        ),
+        message=" ".join([verdict.message, *remarks]),
         numbers=numbers,
         mistake=verdict.mistake,
         carried=verdict.carried,
