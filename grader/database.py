@@ -10,6 +10,7 @@ import datetime as dt
 import logging
 import os
 import sqlite3
+import time
 from contextlib import closing
 from pathlib import Path
 from typing import Any
@@ -27,6 +28,7 @@ SCHEMA = "0003"
 """The newest version in `migrations/versions`."""
 
 _FIRST = "0001"
+_PATIENCE_S = 10  # with others who write
 _WRITERS = 8_240_917  # the number of PostgreSQL's lock that writers of a gradebook take in turn
 _MIGRATIONS = Path(__file__).parent / "migrations"
 
@@ -76,12 +78,13 @@ def _sqlite(address: URL) -> Engine:
     """Open a file: only for its owner, write-ahead log, foreign keys on, patient with other writers."""
     if address.database:
         _keep_private(Path(address.database))
-    engine = create_engine(address, connect_args={"timeout": 10})
+    engine = create_engine(address, connect_args={"timeout": _PATIENCE_S})
 
     @engine_event.listens_for(engine, "connect")
     def _settings(connection: Any, _: Any) -> None:
         connection.isolation_level = None  # SQLAlchemy says BEGIN itself, below
-        for setting in ("journal_mode=WAL", "foreign_keys=ON", "busy_timeout=10000", "synchronous=NORMAL"):
+        _keep_a_log(connection)
+        for setting in ("foreign_keys=ON", f"busy_timeout={1000 * _PATIENCE_S}", "synchronous=NORMAL"):
             connection.execute(f"PRAGMA {setting}")
 
     @engine_event.listens_for(engine, "begin")
@@ -90,6 +93,20 @@ def _sqlite(address: URL) -> Engine:
         connection.exec_driver_sql("BEGIN" if _only_reads(connection) else "BEGIN IMMEDIATE")
 
     return engine
+
+
+def _keep_a_log(connection: sqlite3.Connection) -> None:
+    """Switch a file to a write-ahead log; SQLite does not wait for whoever writes to a new file meanwhile: we do."""
+    until = time.monotonic() + _PATIENCE_S
+    while True:
+        try:
+            connection.execute("PRAGMA journal_mode=WAL")
+        except sqlite3.OperationalError as error:
+            if error.sqlite_errorcode != sqlite3.SQLITE_BUSY or time.monotonic() > until:
+                raise
+            time.sleep(0.01)
+        else:
+            return
 
 
 def _server(address: URL) -> Engine:
