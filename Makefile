@@ -34,7 +34,7 @@ test: check
 	$(BIN)/pytest -n 2 -m "not accuracy"
 
 accuracy: .venv/.dev
-	$(BIN)/pytest -m accuracy -s
+	$(BIN)/pytest -m accuracy -s -o faulthandler_timeout=0
 
 bench: .venv/.dev
 	@for script in benchmarks/*.py; do echo "== $$script"; $(BIN)/python $$script || exit 1; done

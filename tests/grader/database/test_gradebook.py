@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import datetime as dt
+import sqlite3
 import stat
 import sys
+import threading
+from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
+from contextlib import closing, contextmanager
 from dataclasses import replace
 from multiprocessing import get_context
 from pathlib import Path
@@ -18,7 +22,7 @@ from alembic.script import ScriptDirectory
 from sqlalchemy import create_engine, inspect, text
 
 from assignments.terms import Calendar, Extension, Late, Terms
-from grader import tables
+from grader import database, tables
 from grader.adjust import Adjustment
 from grader.database import SCHEMA, DatabaseError, open_database
 from grader.gradebook import Gradebook
@@ -180,10 +184,18 @@ def _write_many(url: str, name: str, number: int) -> int:
     return number
 
 
+@contextmanager
+def _two_at_once() -> Iterator[ProcessPoolExecutor]:
+    """Two processes that begin in the same moment; spawned, for the tests' own process has threads."""
+    spawned = get_context("spawn")
+    with ProcessPoolExecutor(2, spawned, initializer=spawned.Barrier(2).wait) as pool:
+        yield pool
+
+
 def test_two_graders_at_once_lose_nothing_and_number_no_attempt_twice(url, kit) -> None:
     with _book(url) as book:
         pid = _ready(book, kit)
-    with ProcessPoolExecutor(2, mp_context=get_context("fork")) as pool:
+    with _two_at_once() as pool:
         written = sum(pool.map(_write_many, [url, url], ["one", "other"], [25, 25]))
     with _book(url) as book:
         row = book.row("soccer-kick", pid)
@@ -192,10 +204,33 @@ def test_two_graders_at_once_lose_nothing_and_number_no_attempt_twice(url, kit) 
 
 
 def test_two_who_open_a_new_gradebook_at_once_both_can(url) -> None:
-    with ProcessPoolExecutor(2, mp_context=get_context("fork")) as pool:
+    with _two_at_once() as pool:
         assert list(pool.map(_opened, [url] * 4)) == [0, 0, 0, 0]
 
 
 def _opened(url: str) -> int:
     with _book(url) as book:
         return len(book.students())
+
+
+def test_a_file_is_opened_while_somebody_still_writes_its_first_page(tmp_path: Path) -> None:
+    """SQLite answers "locked" at once when the log of a file that is being written is switched on."""
+    path = tmp_path / "book.db"
+    with closing(sqlite3.connect(path, isolation_level=None, check_same_thread=False)) as other:
+        other.execute("CREATE TABLE of_another (x)")
+        other.execute("BEGIN IMMEDIATE")
+        ends = threading.Timer(0.2, other.execute, ["COMMIT"])
+        ends.start()
+        with _book(f"sqlite:///{path}") as book:
+            assert book.students() == ()
+        ends.join()
+
+
+def test_a_file_that_stays_locked_is_one_line(tmp_path: Path, monkeypatch) -> None:
+    monkeypatch.setattr(database, "_PATIENCE_S", 0.1)
+    path = tmp_path / "book.db"
+    with closing(sqlite3.connect(path, isolation_level=None)) as other:
+        other.execute("CREATE TABLE of_another (x)")
+        other.execute("BEGIN IMMEDIATE")
+        with pytest.raises(DatabaseError, match=r"expected a database that can be opened, got database is locked\.$"):
+            _book(f"sqlite:///{path}")
