@@ -6,20 +6,11 @@ anybody's hands. The copy carries no variant code and cannot be handed in by mis
 
 from __future__ import annotations
 
-import io
 import itertools
 import math
 import re
 import textwrap
 from collections.abc import Iterable, Mapping, Sequence
-
-from openpyxl import Workbook
-from openpyxl.cell.cell import MergedCell
-from openpyxl.comments import Comment
-from openpyxl.styles import Alignment, Font, PatternFill
-from openpyxl.utils import get_column_letter
-from openpyxl.worksheet.properties import PageSetupProperties
-from openpyxl.worksheet.worksheet import Worksheet
 
 from assignments.sheets import META
 from assignments.words import symbol_text
@@ -27,26 +18,27 @@ from grader.feedback import Line, Report, hints_of, line_of, standing_of, steps_
 from grader.kind import Kind
 from grader.levels import levels_of
 from grader.page import earned_text, points_text
+from grader.plain_workbook import PlainSheet, PlainWorkbook, Style
 from grader.read.book import Book, Sheet
 from grader.read.sheet import BookCell, place_of
 
 FEEDBACK = "Feedback"
-LONGEST_TEXT = 2000
-_AUTHOR = "Feedback"
-_CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
-_NO_TITLE = re.compile(r"[\[\]:*?/\\]")
 _PLAIN_FORMAT = re.compile(r"[0#?.,%E+\- ]{1,30}")
-_WIDEST, _MOST_MERGES, _MOST_LINES = 50.0, 500, 20
-_COLUMN_WIDTHS, _LINE_HEIGHT = (44, 22, 22, 14, 14, 12, 70), 15.0  # of the sheet of feedback: characters, points
+_WIDEST, _MOST_MERGES, _LARGEST_MERGE, _MOST_LINES = 50.0, 500, 1000, 20
+_COLUMN_WIDTHS = (44, 22, 22, 14, 14, 12, 70)  # of the sheet of feedback: characters
+_RESULT = 3  # its column of results, which is coloured
 
-_TITLE, _BOLD = Font(name="Calibri", size=16, bold=True), Font(name="Calibri", bold=True)
-_TOP = Alignment(vertical="top", wrap_text=True)
-_FILLS: Mapping[str, PatternFill] = {
-    outcome: PatternFill("solid", fgColor=colour)
-    for outcome, colour in (
-        ("right", "E6F2EA"), ("carried", "E6F2EA"), ("partial", "FBF0D9"), ("wrong", "F9E6E4"), ("unsure", "E9E9F5"),
-    )
-}  # fmt: skip
+_TITLE, _TOP, _HEAD = {"font_size": 16, "bold": True}, {"valign": "top", "text_wrap": True}, {"bold": True}
+_FILLS: Mapping[str, Style] = {
+    "right": {"bg_color": "#E6F2EA"},
+    "carried": {"bg_color": "#E6F2EA"},
+    "partial": {"bg_color": "#FBF0D9"},
+    "wrong": {"bg_color": "#F9E6E4"},
+    "unsure": {"bg_color": "#E9E9F5"},
+}
+_BLANK = BookCell(Kind.BLANK)
+
+Place = tuple[int, int]
 
 
 def annotated_workbook(report: Report, book: Book) -> bytes:
@@ -60,43 +52,28 @@ def annotated_workbook(report: Report, book: Book) -> bytes:
     book : Book
         The cells that the reader read from the student's file.
     """
-    made = Workbook()
-    first = made.worksheets[0]
-    first.title = FEEDBACK
+    made = PlainWorkbook(f"{report.assignment.title}: feedback")
     lines = {question.id: line_of(report, question) for question in report.assignment.questions}
-    _write_feedback(first, report, lines)
-    copies = {}
+    _write_feedback(made.sheet(FEEDBACK), report, lines)
+    answers = _answer_cells(report, lines)
     for sheet in book.sheets:
         if sheet.name != META:
-            copies[sheet.name] = _copied(made, sheet)
-    _annotate(copies, report, lines)
-    made.properties.creator = made.properties.title = f"{report.assignment.title}: feedback"
-    content = io.BytesIO()
-    made.save(content)
-    return content.getvalue()
+            _copy(made.sheet(sheet.name), sheet, answers.get(sheet.name, {}))
+    return made.content()
 
 
 # ---------------------------------------------------------------- the sheet of feedback
 
 
-def _write_feedback(sheet: Worksheet, report: Report, lines: Mapping[str, Line]) -> None:
-    row = _write_lines(sheet, 1, _summary(report))
-    sheet.cell(1, 1).font = _TITLE
-    row = _write_lines(sheet, row + 1, [f"{number}. {step}" for number, step in enumerate(steps_of(report), start=1)])
-    row = _write_table(sheet, row + 1, _levels(report))
-    last = _write_table(sheet, row + 1, _answers(report, lines))
-    for place in range(row + 2, last):
-        outcome = list(lines.values())[place - row - 2].verdict.outcome
-        sheet.cell(place, 4).fill = _FILLS[outcome]
+def _write_feedback(page: PlainSheet, report: Report, lines: Mapping[str, Line]) -> None:
+    title, *rest = _summary(report)
+    page.text(1, 1, title, _TITLE)
+    row = _write_lines(page, 2, rest)
+    row = _write_lines(page, row + 1, [f"{number}. {step}" for number, step in enumerate(steps_of(report), start=1)])
+    row = _write_table(page, row + 1, _levels(report), ())
+    _write_table(page, row + 1, _answers(report, lines), [_FILLS[line.verdict.outcome] for line in lines.values()])
     for column, width in enumerate(_COLUMN_WIDTHS, start=1):
-        sheet.column_dimensions[get_column_letter(column)].width = width
-    _print_across(sheet)
-
-
-def _print_across(sheet: Worksheet) -> None:
-    """Print all columns on one landscape page's width."""
-    sheet.page_setup.orientation, sheet.page_setup.fitToWidth, sheet.page_setup.fitToHeight = "landscape", 1, 0
-    sheet.sheet_properties.pageSetUpPr = PageSetupProperties(fitToPage=True)
+        page.width(column, width)
 
 
 def _summary(report: Report) -> list[str]:
@@ -138,24 +115,21 @@ def _said(line: Line) -> str:
     return "\n".join(f"{verdict.mark} {aspect.capitalize()}. {message}" for verdict, aspect, message in line.findings)
 
 
-def _write_lines(sheet: Worksheet, row: int, lines: Iterable[str]) -> int:
+def _write_lines(page: PlainSheet, row: int, lines: Iterable[str]) -> int:
     """Write sentences below one another; return the row after them."""
     for line in lines:
-        _write(sheet, row, 1, str(_plain(line)))
+        page.text(row, 1, _plain(line))
         row += 1
     return row
 
 
-def _write_table(sheet: Worksheet, row: int, table: Sequence[Sequence[str]]) -> int:
-    """Write a table, its head in bold; return the row after it."""
+def _write_table(page: PlainSheet, row: int, table: Sequence[Sequence[str]], fills: Sequence[Style]) -> int:
+    """Write a table, its head in bold, the results in their colours; return the row after it."""
     for at, line in enumerate(table):
-        for column, text in enumerate(line, start=1):
-            _write(sheet, row + at, column, text)
-            cell = sheet.cell(row + at, column)
-            cell.alignment = _TOP
-            if at == 0:
-                cell.font = _BOLD
-        sheet.row_dimensions[row + at].height = _LINE_HEIGHT * max(map(_lines_of, line, _COLUMN_WIDTHS))
+        for column, text in enumerate(line):
+            ink = _HEAD if at == 0 else fills[at - 1] if fills and column == _RESULT else {}
+            page.text(row + at, column + 1, text, {**_TOP, **ink})
+        page.height(row + at, max(map(_lines_of, line, _COLUMN_WIDTHS)))
     return row + len(table)
 
 
@@ -167,70 +141,62 @@ def _lines_of(text: str, width: float) -> int:
 # ---------------------------------------------------------------- what was read
 
 
-def _copied(made: Workbook, sheet: Sheet) -> Worksheet:
-    """Write a sheet's values anew; one that was hidden is shown."""
-    copy: Worksheet = made.create_sheet(_title(sheet.name, made.sheetnames))
+def _copy(page: PlainSheet, sheet: Sheet, answers: Mapping[Place, Line]) -> None:
+    """Write a sheet's values anew, answers in their colours with a note; one that was hidden is shown."""
+    covered = _merge(page, sheet)
+    for place in sorted((sheet.cells.keys() | answers.keys()) - covered):
+        _write_cell(page, place, sheet.cells.get(place, _BLANK), answers.get(place))
+    for place, line in answers.items():
+        if place not in covered:
+            page.note(*place, f"{line.verdict.mark} {line.verdict.word}, {line.points} points\n{_said(line)}")
+    _size(page, sheet)
+
+
+def _merge(page: PlainSheet, sheet: Sheet) -> set[Place]:
+    """Merge ranges over several rows (in one row texts run on as they do merged), none of them over half a sheet.
+
+    Return the places that show no value of their own.
+    """
+    covered: set[Place] = set()
+    for top, left, bottom, right in sheet.merges[:_MOST_MERGES]:
+        if top < bottom and left <= right and (bottom - top + 1) * (right - left + 1) <= _LARGEST_MERGE:
+            inside = set(itertools.product(range(top, bottom + 1), range(left, right + 1)))
+            if inside.isdisjoint(covered):
+                page.merge(top, left, bottom, right)
+                covered |= inside - {(top, left)}
+    return covered
+
+
+def _size(page: PlainSheet, sheet: Sheet) -> None:
+    """Give columns the width of their values, and rows the height of their texts."""
     widths: dict[int, int] = {}
     for (row, column), cell in sheet.cells.items():
-        _write_cell(copy, row, column, cell)
-        if "\n" in cell.text:
-            copy.row_dimensions[row].height = _LINE_HEIGHT * min(cell.text.count("\n") + 1, _MOST_LINES)
+        text = cell.text
+        if "\n" in text:
+            page.height(row, min(text.count("\n") + 1, _MOST_LINES))
         if cell.kind is not Kind.TEXT or (row, column + 1) in sheet.cells:  # else it runs on over empty cells
-            widths[column] = max(widths.get(column, 0), len(cell.text))
+            widths[column] = max(widths.get(column, 0), len(text))
     for column, width in widths.items():
-        copy.column_dimensions[get_column_letter(column)].width = min(max(width + 2.0, 9.0), _WIDEST)
-    several = (merge for merge in sheet.merges if merge[0] < merge[2])  # in one row texts run on as they do merged
-    for top, left, bottom, right in itertools.islice(several, _MOST_MERGES):
-        copy.merge_cells(start_row=top, start_column=left, end_row=bottom, end_column=right)
-    _print_across(copy)
-    return copy
+        page.width(column, min(max(width + 2.0, 9.0), _WIDEST))
 
 
-def _title(name: str, taken: Sequence[str]) -> str:
-    """Return a sheet's name as Excel allows it, and unlike the others."""
-    plain = _NO_TITLE.sub("_", _CONTROL.sub("", name)).strip("'")[:28] or "Sheet"
-    lower = {title.lower() for title in taken}
-    numbered = (f"{plain} {number}" for number in range(2, len(taken) + 3))
-    return next(title for title in (plain, *numbered) if title.lower() not in lower)
-
-
-def _write_cell(sheet: Worksheet, row: int, column: int, cell: BookCell) -> None:
+def _write_cell(page: PlainSheet, place: Place, cell: BookCell, answer: Line | None) -> None:
+    style = _FILLS[answer.verdict.outcome] if answer else {}
     if cell.kind is Kind.NUMBER and cell.number is not None and math.isfinite(cell.number):
-        target = sheet.cell(row, column)
-        target.value = cell.number
-        if _PLAIN_FORMAT.fullmatch(cell.format):
-            target.number_format = cell.format
+        plain = {"num_format": cell.format} if _PLAIN_FORMAT.fullmatch(cell.format) else {}
+        page.number(*place, cell.number, {**style, **plain})
     elif cell.kind is Kind.UNCACHED:
-        _write(sheet, row, column, "(a formula that was never worked out)")
-    elif cell.kind is not Kind.BLANK:
-        _write(sheet, row, column, cell.text)
+        page.text(*place, "(a formula that was never worked out)", style)
+    else:
+        page.text(*place, "" if cell.kind is Kind.BLANK else cell.text, style)
 
 
-def _write(sheet: Worksheet, row: int, column: int, text: str) -> None:
-    """Write a text as text: what looks like a formula stays a text, also when the cell is edited."""
-    text = _CONTROL.sub("", text)[:LONGEST_TEXT]
-    if not text:
-        return
-    cell = sheet.cell(row, column)
-    cell.value = text
-    cell.data_type = "s"
-    cell.quotePrefix = text[0] in "=+-@"
-
-
-# ---------------------------------------------------------------- notes at the answers
-
-
-def _annotate(copies: Mapping[str, Worksheet], report: Report, lines: Mapping[str, Line]) -> None:
-    """Colour each answer's cell, and say in a note what its colour says."""
+def _answer_cells(report: Report, lines: Mapping[str, Line]) -> dict[str, dict[Place, Line]]:
+    """Return by sheet and place where the answers stand."""
+    found: dict[str, dict[Place, Line]] = {}
     for id_, line in lines.items():
         sheet_name, _, address = report.submission.answer(id_).where.rpartition("!")
         place = place_of(address)
-        sheet = copies.get(sheet_name.strip("'"))
-        if sheet is None or place is None:
-            continue
-        cell = sheet.cell(*place)
-        if isinstance(cell, MergedCell):
-            continue
-        cell.fill = _FILLS[line.verdict.outcome]
-        text = f"{line.verdict.mark} {line.verdict.word}, {line.points} points\n{_said(line)}"
-        cell.comment = Comment(_CONTROL.sub("", text)[:LONGEST_TEXT], _AUTHOR, height=140, width=360)
+        if place is not None:
+            found.setdefault(sheet_name.strip("'"), {})[place] = line
+    return found

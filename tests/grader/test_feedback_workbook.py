@@ -146,10 +146,27 @@ def test_merged_cells_stay_merged_and_are_not_in_the_way(desk):
     assert len(made["Answers"].merged_cells.ranges) == 2
 
 
+def test_a_merge_of_all_of_a_sheet_and_one_over_another_are_left_out(desk):
+    """Written out cell by cell the first would never end; the second damages a workbook."""
+    merges = ((1, 1, 1_048_576, 16_384), (2, 2, 3, 3), (3, 3, 4, 4), (6, 4, 5, 5), (9, 1, 8, 1))
+    cells = {(2, 2): BookCell(Kind.NUMBER, 1.0), (3, 3): BookCell(Kind.NUMBER, 2.0)}
+    made = opened(copy_of(desk, sheet_of(cells, "Notes", merges=merges)))["Notes"]
+    assert [str(merge) for merge in made.merged_cells.ranges] == ["B2:C3"]
+    assert made["B2"].value == 1
+
+
+def test_an_answer_that_was_left_out_is_coloured_too(desk):
+    made = opened(copy_of(desk, book_of(desk, e=None)))["Answers"]
+    (cell,) = (cell for line in made for cell in line if cell.comment and cell.comment.text.startswith("✗ wrong"))
+    assert cell.value is None
+    assert cell.fill.fgColor.rgb == "FFF9E6E4"
+
+
 def test_rows_are_as_high_as_their_texts_and_pages_hold_all_columns(desk):
     """LibreOffice finds no height by itself: sentences would lie over one another."""
     made = opened(copy_of(desk, book_of(desk, e=0.1)))
-    heights = {cell.row: sheet.row_dimensions[cell.row].height for sheet in made.worksheets[:1] for cell in sheet["G"]}
+    usual = 15  # points: not written
+    heights = {cell.row: made[FEEDBACK].row_dimensions[cell.row].height or usual for cell in made[FEEDBACK]["G"]}
     said = {cell.row: cell.value for cell in made[FEEDBACK]["G"] if cell.value}
     assert all(heights[row] >= 15 * (text.count("\n") + 1) for row, text in said.items())
     assert max(heights[row] for row in said) > 30
@@ -160,6 +177,6 @@ def test_long_texts_run_on_and_notes_of_several_lines_are_seen(desk):
     cells = {(1, 1): BookCell(Kind.TEXT, written="x" * 45), (2, 1): BookCell(Kind.TEXT, written="a\nb\nc")}
     cells |= {(3, 1): BookCell(Kind.TEXT, written="y" * 20), (3, 2): BookCell(Kind.NUMBER, 1.0)}
     made = opened(copy_of(desk, sheet_of(cells, merges=((1, 1, 1, 4), (5, 1, 6, 2)))))["Answers"]
-    assert made.column_dimensions["A"].width == 22
+    assert 22 <= made.column_dimensions["A"].width < 23  # with what Excel adds at its sides
     assert made.row_dimensions[2].height == 45
     assert [str(merge) for merge in made.merged_cells.ranges] == ["A5:B6"]
