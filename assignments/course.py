@@ -63,6 +63,7 @@ _SAMPLE_SETTINGS = """\
 # closes = 2027-05-03T23:59:00    # later work is kept, not graded
 # attempts = 3                    # different contents; 0 is any number
 # counts = "best"                 # or newest, first, mean
+# true_values = "never"           # on students' pages; when over if not given, or always
 # late = { rule = "linear", share = 0.1, per_hours = 24, grace_minutes = 15, cap = 0.5 }
 
 # [[extension]]                   # names stay out: students go by their pseudonyms

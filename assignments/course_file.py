@@ -8,7 +8,7 @@ from zoneinfo import ZoneInfo
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, StringConstraints, field_validator, model_validator
 
-from assignments.terms import Calendar, Counts, Extension, Late, Rule, Terms
+from assignments.terms import Calendar, Counts, Extension, Late, Rule, Terms, TrueValues
 
 Line = Annotated[str, StringConstraints(pattern=r"^[^\x00-\x1f\x7f]{1,200}$")]
 Slug = Annotated[str, StringConstraints(pattern=r"^[a-z0-9][a-z0-9_-]{0,79}$")]
@@ -58,6 +58,7 @@ class TermsTable(_Table):
     attempts: Annotated[int, Field(ge=0, le=1000)] = 0
     counts: Counts = "newest"
     late: LateTable | None = None
+    true_values: TrueValues = "when over"
 
     @model_validator(mode="after")
     def _in_order(self) -> TermsTable:
@@ -122,7 +123,7 @@ def _terms(table: TermsTable, zone: ZoneInfo) -> Terms:
         moment.replace(tzinfo=zone) if moment is not None and moment.tzinfo is None else moment
         for moment in (table.opens, table.due, table.closes)
     )
-    return Terms(opens, due, closes, table.attempts, table.counts, _late(table.late))
+    return Terms(opens, due, closes, table.attempts, table.counts, _late(table.late), table.true_values)
 
 
 def _late(table: LateTable | None) -> Late:

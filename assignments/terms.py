@@ -11,6 +11,7 @@ from zoneinfo import ZoneInfo
 
 Counts = Literal["newest", "best", "first", "mean"]
 Rule = Literal["none", "fixed", "linear", "steps"]
+TrueValues = Literal["when over", "never", "always"]
 
 
 @dataclass(frozen=True)
@@ -82,6 +83,8 @@ class Terms:
     counts : str
         Which attempt counts: "newest", "best", "first" or the "mean" of all.
     late : Late
+    true_values : str
+        When students see them: "when over", that is when they can hand in nothing more, "never" or "always".
     """
 
     opens: dt.datetime | None = None
@@ -90,6 +93,7 @@ class Terms:
     attempts: int = 0
     counts: Counts = "newest"
     late: Late = Late()
+    true_values: TrueValues = "when over"
 
     def extended(self, extensions: Iterable[Extension]) -> Terms:
         """Return the terms with every extension added up."""
@@ -113,6 +117,12 @@ class Terms:
         """
         last = self.closes or self.due
         return last is not None and now > last
+
+    def shows_truth(self, now: dt.datetime, attempts: int) -> bool:
+        """Tell whether somebody who has handed in so many attempts may see true values."""
+        if self.true_values == "when over":
+            return self.is_over(now) or bool(self.attempts and attempts >= self.attempts)
+        return self.true_values == "always"
 
     def is_closed(self, received: dt.datetime) -> bool:
         """Tell whether something came in after the last moment."""

@@ -99,7 +99,8 @@ def _levels(report: Report) -> list[Sequence[str]]:
 
 
 def _answers(report: Report, lines: Mapping[str, Line]) -> list[Sequence[str]]:
-    expected = "True value" if report.show_truth else "True value (later)"
+    hidden = "True value (not shown)" if report.terms.true_values == "never" else "True value (later)"
+    expected = "True value" if report.show_truth else hidden
     symbols = {question.id: symbol_text(question.symbol) for question in report.assignment.questions}
     head = ("Question", "You wrote", expected, "Result", "Points", "Cell", "What was found")
     return [head, *(_answer(line, symbols[id_]) for id_, line in lines.items())]

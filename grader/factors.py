@@ -23,6 +23,9 @@ MATCH = 0.025
 CLEAR = 3.0
 """And so many times closer than the right value: what scatters about the truth has no name."""
 
+CLOSE = 0.1
+"""A factor as close as this to 1 has to be in every number: two of three that scatter are so soon."""
+
 _PLAYBACK = (24.0, 25.0, 29.97, 30.0, 50.0, 59.94, 60.0)
 _FAR = 1e9  # a number this far off tells of no slip of units
 _DEG, _RPM = 180 / math.pi, 30 / math.pi
@@ -54,11 +57,15 @@ def _factor(
     asked: Sequence[Question], submission: Submission, key: AnswerKey, names: Iterable[tuple[str, float]]
 ) -> Factor | None:
     """Return the named factor that these questions' numbers share, None without one."""
-    shared = _shared(_ratios(submission, key, asked))
+    ratios = _ratios(submission, key, asked)
+    shared = _shared(ratios)
     if shared is None:
         return None
-    codes = _codes(shared[0], names, max(question.tolerance for question in asked))
-    return Factor(codes, *shared) if codes else None
+    factor, ids = shared
+    if abs(factor - 1) < CLOSE and len(ids) < len(ratios):
+        return None
+    codes = _codes(factor, names, max(question.tolerance for question in asked))
+    return Factor(codes, factor, ids) if codes else None
 
 
 def _ratios(submission: Submission, key: AnswerKey, asked: Iterable[Question]) -> dict[str, float]:

@@ -30,7 +30,7 @@ ShowTruthOption = Annotated[
     bool | None,
     typer.Option(
         "--show-truth/--hide-truth",
-        help="Show students the true values and curves. If not given: when nobody can hand in any more.",
+        help="Show students the true values and curves, or not. If not given: as course.toml says under true_values.",
     ),
 ]
 

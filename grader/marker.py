@@ -82,7 +82,7 @@ class Wanted:
     Attributes
     ----------
     show_truth : bool or None
-        Whether the students' pages show true values and curves; None: when nobody can hand in any more.
+        Whether the students' pages show true values and curves; None: as the terms say.
     received : datetime or None
         When files that no platform sent were handed in; None: nobody knows, and they count as in time.
     workers : int
@@ -324,17 +324,16 @@ class Marker:
         return self._course.shelf.place(f"{name}.html")
 
     def _complete(self, report: Report, row: Row) -> Report:
-        is_over = report.terms.is_over(self._now)
-        is_done = is_over or bool(report.terms.attempts and row.attempts >= report.terms.attempts)
+        may_see = report.terms.shows_truth(self._now, row.attempts)
         symbols = {question.id: symbol_text(question.symbol) for question in report.assignment.questions}
         return replace(
             report,
             grade=decided(report.grade, row.decisions),
-            show_truth=is_done if self._wanted.show_truth is None else self._wanted.show_truth,
+            show_truth=may_see if self._wanted.show_truth is None else self._wanted.show_truth,
             adjustments=tuple(item.told(symbols.get(item.question, "All together")) for item in row.decisions),
             due=self._course.calendar.due_text(report.assignment.id, report.key.student),
             closes=closes_text(self._course.calendar, report.assignment.id, report.key.student),
-            is_over=is_over,
+            is_over=report.terms.is_over(self._now),
             frame=impact_frame(self._course.shelf, report.key),
         )
 

@@ -64,7 +64,7 @@ def release(
 ) -> tuple[Change, ...]:
     """Release what counts now, and write every page anew: what students read is what was released.
 
-    True values appear on the pages when nobody can hand in any more, unless `show_truth` says otherwise.
+    True values appear on the pages when the terms say, unless `show_truth` says otherwise.
 
     Raises
     ------

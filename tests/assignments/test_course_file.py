@@ -26,6 +26,7 @@ due = 2027-04-26T23:59:00
 closes = 2027-05-03T23:59:00
 attempts = 3
 counts = "best"
+true_values = "never"
 late = { rule = "linear", share = 0.1, per_hours = 24, grace_minutes = 15, cap = 0.5 }
 
 [assignment.two-pucks]
@@ -58,6 +59,7 @@ def test_everything_that_it_may_say_is_understood(tmp_path: Path) -> None:
     assert kick.due == dt.datetime(2027, 4, 26, 21, 59, tzinfo=dt.UTC)  # local time of the course
     assert pucks.due == dt.datetime(2027, 5, 10, 16, 0, tzinfo=dt.UTC)  # its own zone
     assert (kick.attempts, kick.counts, kick.late) == (3, "best", Late("linear", 0.1, 24, (), 15, 0.5))
+    assert (kick.true_values, pucks.true_values) == ("never", "when over")
     assert pucks.late.steps == ((0.0, 0.1), (24.0, 0.3))
     assert course.calendar.terms_of("soccer-kick", "k3m9x2ab").due == kick.due + dt.timedelta(hours=48)
 

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from assignments.terms import Calendar, Extension, Late, Terms
+from assignments.terms import Calendar, Extension, Late, Terms, TrueValues
 from assignments.terms_words import late_text, terms_text
 
 HOUR = 3600.0
@@ -80,6 +80,19 @@ def test_lateness_counts_from_the_due_moment_in_any_zone() -> None:
     assert [terms.is_closed(DUE + dt.timedelta(hours=h)) for h in (2, 2.01)] == [False, True]
     assert [terms.is_over(DUE + dt.timedelta(hours=h)) for h in (2, 2.01)] == [False, True]
     assert [Terms(due=DUE).is_over(DUE + dt.timedelta(hours=h)) for h in (0, 0.01)] == [False, True]
+
+
+def test_true_values_are_seen_when_nothing_can_be_handed_in_any_more() -> None:
+    terms, later = Terms(due=DUE, attempts=3), DUE + dt.timedelta(hours=1)
+    assert [terms.shows_truth(DUE, attempts) for attempts in (0, 2, 3, 4)] == [False, False, True, True]
+    assert terms.shows_truth(later, 0)
+    assert not Terms().shows_truth(later, 99)
+
+
+@pytest.mark.parametrize(("true_values", "shown"), [("never", False), ("always", True)])
+def test_true_values_may_be_shown_never_or_always(true_values: TrueValues, shown: bool) -> None:
+    terms = Terms(due=DUE, attempts=1, true_values=true_values)
+    assert [terms.shows_truth(DUE + dt.timedelta(hours=h), n) for h, n in ((0, 0), (0, 1), (1, 0))] == [shown] * 3
 
 
 def test_extensions_add_up_for_their_student_and_assignment_only() -> None:

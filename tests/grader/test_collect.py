@@ -374,6 +374,22 @@ def test_a_release_writes_true_values_when_the_time_is_over(term) -> None:
     assert "True value" in _page(term)
 
 
+def test_true_values_that_the_course_never_shows_stay_away_whatever_command_writes_the_page(term) -> None:
+    over = "[assignment.soccer-kick]\ndue = 2026-05-01T22:00:00\n"
+    term.say(f'{over}true_values = "never"\n')
+    collect(term.course, SLUG, term.download(**{"s_901_1_lab.xlsx": term.file(0)}))
+    grade_collected(term.course, SLUG)
+    assert "True value" not in _page(term)
+    release(term.course, SLUG, who="ann")
+    assert "True value" not in _page(term)
+    at = ["--reason", "seen", "--course", str(term.course.folder)]
+    assert run(["gradebook", "set", term.pids[0], SLUG, "total", "1", *at]) == 0
+    assert "True value" not in _page(term)
+    term.say('[assignment.soccer-kick]\ndue = 2126-05-01T22:00:00\ntrue_values = "always"\n')
+    release(term.course, SLUG, who="ann")
+    assert "True value" in _page(term)
+
+
 def test_a_decision_after_which_another_attempt_counts_says_so(term, capsys) -> None:
     term.say('[assignment.soccer-kick]\ncounts = "best"\n')
     files = {"s_901_1_lab.xlsx": term.file(0), "s_901_2_lab-2.xlsx": term.file(0, I=0.91)}

@@ -11,6 +11,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from assignments.terms import Terms
 from grader.annotated import FEEDBACK, annotated_workbook
 from grader.feedback import Report
 from grader.grade import grade
@@ -75,6 +76,8 @@ def test_nothing_true_is_in_it_while_attempts_remain(desk):
     everything = "\n".join(text_of(sheet) for sheet in opened(data))
     assert f"{desk.truth['v_b2']:g}" not in everything
     assert "True value (later)" in everything
+    never = copy_of(desk, book_of(desk), show_truth=False, terms=Terms(true_values="never"))
+    assert "True value (not shown)" in text_of(opened(never).worksheets[0])
 
 
 def test_the_copy_cannot_be_handed_in(desk):
