@@ -37,7 +37,7 @@ class Arrived:
     received_at : str
         When it was handed in, ISO 8601 with a zone.
     lms_ref : str
-        The platform's number of the file.
+        What the platform knows the file by.
     status, reason : str
     told_by : str
         The person who said whose it is; "" where workbook or platform did.

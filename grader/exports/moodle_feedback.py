@@ -10,12 +10,11 @@ from __future__ import annotations
 from pathlib import Path
 
 from assignments.bundle import moodle_folder, zip_bytes
-from grader.enrolment import Student
-from grader.filling.fill import missing, no_grade
+from grader.filling.feedback import feedback_name, held_back
+from grader.filling.fill import missing
 from grader.filling.job import Export, Job, Line, template_of
 from grader.filling.moodle_worksheet import EXPECTED, worksheet
 from grader.filling.people import Directory
-from grader.grading import FEEDBACK
 
 _PAGE = "feedback.html"
 
@@ -38,11 +37,11 @@ def write(job: Job, path: Path) -> tuple[Line, ...]:
             lines.append(Line(one.name, "skipped", reason=whose))
             continue
         seen.add(whose.pid)
-        line = _line(job, whose)
-        if line.status == "filled":
+        line = held_back(job, whose, ".html")
+        if line is None:
             folder = moodle_folder(whose.pid, sheet.participant(row))
-            files[f"{folder}/{_PAGE}"] = job.course.shelf.read(_name(job, whose))
-        lines.append(line)
+            files[f"{folder}/{_PAGE}"] = job.course.shelf.read(feedback_name(job, whose, ".html"))
+        lines.append(line or Line(whose.name, "filled", reason=_PAGE, pid=whose.pid))
     path.write_bytes(zip_bytes(files))
     return (*lines, *missing(job, seen))
 
@@ -56,19 +55,3 @@ EXPORT = Export(
         "upload counts as a change of grades. The assignment needs the feedback type Feedback files."
     ),
 )
-
-
-def _line(job: Job, student: Student) -> Line:
-    """Say whether a student's page goes out: a newer one would tell what was not released."""
-    none = no_grade(job, student)
-    if none is not None:
-        return none
-    if student.pid in job.stale:
-        return Line(student.name, "skipped", reason="graded anew since the release: vml release", pid=student.pid)
-    if not job.course.shelf.exists(_name(job, student)):
-        return Line(student.name, "skipped", reason="has no feedback page", pid=student.pid)
-    return Line(student.name, "filled", reason=_PAGE, pid=student.pid)
-
-
-def _name(job: Job, student: Student) -> str:
-    return f"{FEEDBACK}/{job.assignment.id}/{student.pid}.html"

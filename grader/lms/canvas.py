@@ -21,5 +21,6 @@ def recognise(path: str) -> Named | None:
     found = anonymous or _FILE.fullmatch(name)
     if found is None:
         return None
-    kind = "canvas_anonymous" if anonymous else "canvas_id"
-    return Named("canvas", kind, found["user"], found["name"], found["late"] is not None, reference=found["file"])
+    kind, lead = ("canvas_anonymous", "anon_") if anonymous else ("canvas_id", "")
+    reference = f"{lead}{found['user']}_{found['file']}"
+    return Named("canvas", kind, found["user"], found["name"], found["late"] is not None, reference=reference)

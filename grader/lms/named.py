@@ -22,7 +22,7 @@ class Named:
     received : datetime or None
         When it was handed in, in the platform's local time; None when the name does not say.
     reference : str
-        The platform's number of this very file, "" when there is none.
+        What the platform knows this very file by, no name in it; "" when there is nothing.
     """
 
     platform: str

@@ -59,7 +59,7 @@ def canvas_file(folder: Path, *rows: str) -> Path:
 
 def test_nothing_leaves_before_a_release(course, tmp_path, capfd) -> None:
     template = canvas_file(tmp_path, '"Doe, Jane",,jdoe,A,')
-    for to in ("canvas", "csv", "moodle", "moodle-feedback", "blackboard"):
+    for to in ("canvas", "canvas-feedback", "csv", "moodle", "moodle-feedback", "blackboard"):
         code = run(["export", "soccer-kick", "--to", to, "--course", str(course.folder), "--template", str(template)])
         assert code == 2
         assert "vml release soccer-kick" in capfd.readouterr().err
@@ -148,7 +148,15 @@ def test_the_result_is_there_for_programs(course, capfd) -> None:
 
 
 def test_platforms_are_found_by_name(course) -> None:
-    assert set(exports()) == {"blackboard", "canvas", "csv", "gradescope", "moodle", "moodle-feedback"}
+    assert set(exports()) == {
+        "blackboard",
+        "canvas",
+        "canvas-feedback",
+        "csv",
+        "gradescope",
+        "moodle",
+        "moodle-feedback",
+    }
     with pytest.raises(UnknownNameError, match="moodle-feedback"):
         export_grades(course, "soccer-kick", "blackbord")
     release_grades(course, "soccer-kick", who="test")
