@@ -340,18 +340,19 @@ def test_the_process_answers_until_its_pipe_ends(monkeypatch, good_bytes):
 
 # Forked in a process without threads: a fork beside threads may stop for good.
 FORKS = """
-import os
-from grader.read import worker
-here = worker._shared_reader(os.getpid())
-of_parent = here._start()
+import contextlib, os
+from grader.read import ReadRequest, UnreadableError, worker
+def answering():
+    with contextlib.suppress(UnreadableError):
+        worker.read_isolated(ReadRequest("w.xlsx", b""))
+    return worker._shared_reader(os.getpid())._process
+of_parent = answering()
 if os.fork() == 0:
-    own = worker._shared_reader(os.getpid())
-    print(own is here, flush=True)
-    worker._close_own(here, os.getppid())
+    print(answering().pid == of_parent.pid, flush=True)
+    worker._shared_reader(os.getpid()).close()
     os._exit(0)
 os.wait()
 print(of_parent.poll())
-here.close()
 """
 
 
