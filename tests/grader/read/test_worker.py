@@ -338,6 +338,11 @@ def test_the_process_answers_until_its_pipe_ends(monkeypatch, good_bytes):
     assert worker_module._received(answers) is None
 
 
+def test_what_a_process_reads_goes_to_its_own_reader(good_bytes):
+    read_isolated(ReadRequest("w.xlsx", good_bytes))
+    assert worker_module._shared_reader(os.getpid())._process.poll() is None
+
+
 # Forked in a process without threads: a fork beside threads may stop for good.
 FORKS = """
 import contextlib, os
