@@ -7,7 +7,8 @@ import math
 
 import pytest
 
-from assignments.mistakes import MISTAKES, ImpactNumbers, numbers_of_impact
+from assignments.mistakes import MISTAKES, ImpactNumbers
+from tests.impacts import numbers_of_impact
 
 PAPER = ImpactNumbers(
     v1=15,

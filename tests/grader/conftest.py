@@ -15,7 +15,7 @@ import pytest
 
 from assignments.course import COURSE_FILE, Course, new_course, open_course
 from assignments.load import load_assignment
-from assignments.mistakes import ImpactNumbers, numbers_of_impact
+from assignments.mistakes import ImpactNumbers
 from assignments.model import AnswerKey, Assignment, Variant
 from assignments.variants import signature_of
 from assignments.workbook import fill_workbook, write_workbook
@@ -25,6 +25,7 @@ from grader.model import Answer, Grade, Kind, Submission
 from grader.read import ReadRequest, read_workbook
 from grader.read.locate import find_submission
 from grader.roster import Enrolled
+from tests.impacts import numbers_of_impact
 
 FPS, SCALE = 480.0, 500.0
 POINTS = ("foot", "knee", "ball")

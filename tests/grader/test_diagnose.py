@@ -8,11 +8,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from assignments.mistakes import MISTAKES, ImpactNumbers, numbers_of_impact
+from assignments.mistakes import MISTAKES, ImpactNumbers
 from assignments.textbook import every_mistake
 from grader.diagnose import diagnose_answer
 from grader.factors import find_factors
 from grader.hints import HINTS, KINEMATIC, about, hint_for
+from tests.impacts import numbers_of_impact
 
 SCALE = 500.0
 VARIANTS = 150
