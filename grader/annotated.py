@@ -19,12 +19,14 @@ from grader.kind import Kind
 from grader.levels import levels_of
 from grader.page import earned_text, points_text
 from grader.plain_workbook import PlainSheet, PlainWorkbook, Style
+from grader.read import limits
 from grader.read.book import Book, Sheet
 from grader.read.sheet import BookCell, place_of
 
 FEEDBACK = "Feedback"
 _PLAIN_FORMAT = re.compile(r"[0#?.,%E+\- ]{1,30}")
-_WIDEST, _MOST_MERGES, _LARGEST_MERGE, _MOST_LINES = 50.0, 500, 1000, 20
+_WIDEST, _MOST_LINES = 50.0, 20
+_MOST_SHEETS, _MOST_CELLS, _MOST_MERGES, _LARGEST_MERGE = 20, 50_000, 100, 1000  # of a sheet: a bomb stays small
 _COLUMN_WIDTHS = (44, 22, 22, 14, 14, 12, 70)  # of the sheet of feedback: characters
 _RESULT = 3  # its column of results, which is coloured
 
@@ -56,7 +58,7 @@ def annotated_workbook(report: Report, book: Book) -> bytes:
     lines = {question.id: line_of(report, question) for question in report.assignment.questions}
     _write_feedback(made.sheet(FEEDBACK), report, lines)
     answers = _answer_cells(report, lines)
-    for sheet in book.sheets:
+    for sheet in book.sheets[:_MOST_SHEETS]:
         if sheet.name != META:
             _copy(made.sheet(sheet.name), sheet, answers.get(sheet.name, {}))
     return made.content()
@@ -145,27 +147,41 @@ def _lines_of(text: str, width: float) -> int:
 def _copy(page: PlainSheet, sheet: Sheet, answers: Mapping[Place, Line]) -> None:
     """Write a sheet's values anew, answers in their colours with a note; one that was hidden is shown."""
     covered = _merge(page, sheet)
-    for place in sorted((sheet.cells.keys() | answers.keys()) - covered):
-        _write_cell(page, place, sheet.cells.get(place, _BLANK), answers.get(place))
-    for place, line in answers.items():
-        if place not in covered:
-            page.note(*place, f"{line.verdict.mark} {line.verdict.word}, {line.points} points\n{_said(line)}")
+    shown = {place: line for place, line in answers.items() if _is_near(place) and place not in covered}
+    places = sorted((sheet.cells.keys() | shown.keys()) - covered)
+    for place in places[:_MOST_CELLS]:
+        _write_cell(page, place, sheet.cells.get(place, _BLANK), shown.get(place))
+    if len(places) > _MOST_CELLS:
+        page.text(places[_MOST_CELLS][0] + 1, 1, "(more was left out here)")
+    for place, line in shown.items():
+        page.note(*place, f"{line.verdict.mark} {line.verdict.word}, {line.points} points\n{_said(line)}")
     _size(page, sheet)
 
 
 def _merge(page: PlainSheet, sheet: Sheet) -> set[Place]:
-    """Merge ranges over several rows (in one row texts run on as they do merged), none of them over half a sheet.
+    """Merge ranges over several rows (in one row texts run on as they do merged), but none over half a sheet.
 
     Return the places that show no value of their own.
     """
-    covered: set[Place] = set()
-    for top, left, bottom, right in sheet.merges[:_MOST_MERGES]:
-        if top < bottom and left <= right and (bottom - top + 1) * (right - left + 1) <= _LARGEST_MERGE:
-            inside = set(itertools.product(range(top, bottom + 1), range(left, right + 1)))
-            if inside.isdisjoint(covered):
-                page.merge(top, left, bottom, right)
-                covered |= inside - {(top, left)}
+    merged, covered = set[Place](), set[Place]()
+    for top, left, bottom, right in itertools.islice(filter(_is_worth_merging, sheet.merges), _MOST_MERGES):
+        inside = set(itertools.product(range(top, bottom + 1), range(left, right + 1)))
+        if merged.isdisjoint(inside):
+            page.merge(top, left, bottom, right)
+            merged |= inside
+            covered |= inside - {(top, left)}
     return covered
+
+
+def _is_worth_merging(merge: tuple[int, int, int, int]) -> bool:
+    top, left, bottom, right = merge
+    is_small = top < bottom and left <= right and (bottom - top + 1) * (right - left + 1) <= _LARGEST_MERGE
+    return is_small and _is_near((top, left)) and _is_near((bottom, right))
+
+
+def _is_near(place: Place) -> bool:
+    """Tell whether a place is where the reader reads: writing to one far away would take minutes."""
+    return 1 <= place[0] <= limits.ROWS and 1 <= place[1] <= limits.COLUMNS
 
 
 def _size(page: PlainSheet, sheet: Sheet) -> None:

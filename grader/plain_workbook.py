@@ -57,6 +57,7 @@ class PlainWorkbook:
         """Return a title; Excel counts its characters as UTF-16 does, and takes no heed of capitals."""
         safe = _NO_TITLE.sub("_", _CONTROL.sub("", name)).encode("utf-16-le")[: 2 * _LONGEST_TITLE]
         plain = safe.decode("utf-16-le", "ignore").strip("'") or "Sheet"
+        plain = "History_" if plain.lower() == "history" else plain  # Excel keeps this name for itself
         numbered = (f"{plain} {number}" for number in range(2, len(self._titles) + 3))
         title = next(title for title in (plain, *numbered) if title.lower() not in self._titles)
         self._titles.add(title.lower())
@@ -73,7 +74,7 @@ class PlainSheet:
 
     def text(self, row: int, column: int, text: str, style: Style | None = None) -> None:
         """Write a text as text: what looks like a formula stays a text, also when the cell is edited."""
-        text = _CONTROL.sub("", text)[:LONGEST_TEXT]
+        text = _plain(text)
         if text:
             quoted = {"quote_prefix": True} if text[0] in "=+-@" else {}
             self._sheet.write_string(row - 1, column - 1, text, self._book.format({**(style or {}), **quoted}))
@@ -81,12 +82,12 @@ class PlainSheet:
             self._sheet.write_blank(row - 1, column - 1, None, self._book.format(style))
 
     def number(self, row: int, column: int, number: float, style: Style) -> None:
-        """Write a number."""
+        """Write a number, to the 16 digits that XlsxWriter keeps."""
         self._sheet.write_number(row - 1, column - 1, number, self._book.format(style))
 
     def note(self, row: int, column: int, text: str) -> None:
         """Hang a note on a cell."""
-        self._sheet.write_comment(row - 1, column - 1, _CONTROL.sub("", text)[:LONGEST_TEXT], _NOTE)
+        self._sheet.write_comment(row - 1, column - 1, _plain(text), _NOTE)
 
     def merge(self, top: int, left: int, bottom: int, right: int) -> None:
         """Merge cells; the first is written afterwards."""
@@ -99,3 +100,9 @@ class PlainSheet:
     def width(self, column: int, width: float) -> None:
         """Make a column so many characters wide."""
         self._sheet.set_column(column - 1, column - 1, width)
+
+
+def _plain(text: str) -> str:
+    """Return a text that is safe in a cell; XlsxWriter takes one between <r> and </r> for markup of its own."""
+    text = _CONTROL.sub("", text)[:LONGEST_TEXT]
+    return f"{text} " if text.startswith("<r>") else text

@@ -12,6 +12,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from assignments.terms import Terms
+from grader import annotated
 from grader.annotated import FEEDBACK, annotated_workbook
 from grader.feedback import Report
 from grader.grade import grade
@@ -108,16 +109,23 @@ def test_formulas_macros_and_links_stay_behind(desk, tmp_path):
 
 
 @settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
-@given(text=st.text(max_size=60), start=st.sampled_from(["", "=", "+", "-", "@", "=cmd|' /C calc'!A0"]))
-def test_any_text_stays_a_text(desk, text, start):
-    book = sheet_of({(1, 1): BookCell(Kind.TEXT, None, start + text)})
-    cell = opened(copy_of(desk, book))["Answers"].cell(1, 1)
+@given(
+    text=st.text(max_size=60),
+    start=st.sampled_from(["", "=", "+", "-", "@", "=cmd|' /C calc'!A0", "<r>", "<r>&", "<r></r></si><si>"]),
+    end=st.sampled_from(["", "</r>", "</t></r>"]),
+)
+def test_any_text_stays_a_text(desk, text, start, end):
+    book = sheet_of({(1, 1): BookCell(Kind.TEXT, None, start + text + end), (1, 2): BookCell(Kind.TEXT, None, "next")})
+    sheet = opened(copy_of(desk, book))["Answers"]
+    cell = sheet.cell(1, 1)
     assert cell.data_type in {"s", "n", "inlineStr"}
     assert cell.value is None or isinstance(cell.value, str)
+    assert cell.value is None or cell.value.startswith(start.replace("\r", ""))
+    assert sheet.cell(1, 2).value == "next"
 
 
 @settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
-@given(names=st.lists(st.text(max_size=40), min_size=1, max_size=4))
+@given(names=st.lists(st.text(max_size=40) | st.just("History"), min_size=1, max_size=4))
 def test_any_names_of_sheets_make_a_workbook_that_opens(desk, names):
     sheets = tuple(Sheet(name, True, {(1, 1): BookCell(Kind.NUMBER, 1.0)}) for name in names if name != "_meta")
     made = opened(copy_of(desk, Book("w.xlsx", sheets, {}, (), "")))
@@ -151,11 +159,36 @@ def test_merged_cells_stay_merged_and_are_not_in_the_way(desk):
 
 def test_a_merge_of_all_of_a_sheet_and_one_over_another_are_left_out(desk):
     """Written out cell by cell the first would never end; the second damages a workbook."""
-    merges = ((1, 1, 1_048_576, 16_384), (2, 2, 3, 3), (3, 3, 4, 4), (6, 4, 5, 5), (9, 1, 8, 1))
+    in_a_row = tuple((row, 5, row, 6) for row in range(1, 600))
+    far = (1_048_575, 16_383, 1_048_576, 16_384)
+    merges = (*in_a_row, (1, 1, 1_048_576, 16_384), far, (0, 1, 9, 1), (2, 2, 3, 3), (3, 3, 4, 4), (1, 1, 2, 2))
+    merges += ((6, 4, 5, 5), (9, 1, 8, 1))
     cells = {(2, 2): BookCell(Kind.NUMBER, 1.0), (3, 3): BookCell(Kind.NUMBER, 2.0)}
     made = opened(copy_of(desk, sheet_of(cells, "Notes", merges=merges)))["Notes"]
     assert [str(merge) for merge in made.merged_cells.ranges] == ["B2:C3"]
     assert made["B2"].value == 1
+
+
+def test_an_answer_that_stands_far_away_is_not_gone_to(desk):
+    """XlsxWriter visits every row and column up to the last that is written."""
+    far = sheet_of({(1, 1): BookCell(Kind.NUMBER, 1.0)}, "Answers")
+    whole = book_of(desk)
+    submission = find_submission(whole, desk.assignment.questions)
+    answer = replace(submission.answer("e"), where="Answers!XFD1048576")
+    there = replace(submission, answers={**submission.answers, "e": answer})
+    report = Report(desk.assignment, there, desk.key, grade(submission, desk.key, desk.assignment))
+    sheet = opened(annotated_workbook(report, far))["Answers"]
+    assert (sheet.max_row, sheet.max_column) < (100, 100)
+
+
+def test_a_copy_stays_small_whatever_was_handed_in(desk, monkeypatch):
+    monkeypatch.setattr(annotated, "_MOST_CELLS", 3)
+    many = tuple(
+        Sheet(f"S{n}", True, {(row, 1): BookCell(Kind.NUMBER, float(row)) for row in range(1, 6)}) for n in range(64)
+    )
+    made = opened(copy_of(desk, Book("w.xlsx", many, {}, (), "")))
+    assert len(made.sheetnames) == 21
+    assert [cell.value for cell in made["S0"]["A"]] == [1, 2, 3, None, "(more was left out here)"]
 
 
 def test_an_answer_that_was_left_out_is_coloured_too(desk):
