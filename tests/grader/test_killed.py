@@ -8,6 +8,7 @@ import random
 import signal
 import sys
 import time
+from multiprocessing.synchronize import Event
 from pathlib import Path
 
 import pytest
@@ -50,20 +51,28 @@ def _grade(folder: str, files: list[Path], again: int) -> None:
         grade_files(open_course(folder), files, Wanted())
 
 
+def _grade_and_say(folder: str, files: list[Path], begins: Event) -> None:
+    begins.set()
+    _grade(folder, files, 3)
+
+
 def test_a_grader_killed_at_random_moments_loses_nothing_and_leaves_no_half_grade(handed_in) -> None:
     course, files = handed_in
     processes, chance = multiprocessing.get_context("forkserver"), random.Random(7)  # noqa: S311 - moments to kill at
     processes.set_forkserver_preload(["pytest", "assignments.workbook", "grader.grading"])  # longer than grading takes
     started = time.monotonic()
     _grade(str(course.folder), files, 1)
-    once_s = time.monotonic() - started
+    once_s, before = time.monotonic() - started, _runs(course)
     for _ in range(KILLS):
-        child = processes.Process(target=_grade, args=(str(course.folder), files, 3))
+        begins = processes.Event()
+        child = processes.Process(target=_grade_and_say, args=(str(course.folder), files, begins))
         child.start()
+        begins.wait()  # it imports this file first
         time.sleep(chance.uniform(0.02, 1.5 * once_s))
         os.kill(child.pid, signal.SIGKILL)
         child.join()
         _hold(course)
+    assert _runs(course) > before  # they were killed at work, not before it
     grade_files(course, files, Wanted())
     _hold(course)
     with Gradebook.open(course) as book:
@@ -73,6 +82,11 @@ def test_a_grader_killed_at_random_moments_loses_nothing_and_leaves_no_half_grad
         assert book.receipts("collected") == ()
     pages = {path.name for path in (course.folder / "feedback" / "soccer-kick").glob("*.html")}
     assert len(pages) == STUDENTS + 1
+
+
+def _runs(course: Course) -> int:
+    with Gradebook.open(course) as book, book.reading() as connection:
+        return int(connection.scalar(select(func.count()).select_from(tables.grade_run)))
 
 
 def _hold(course: Course) -> None:
