@@ -24,7 +24,7 @@ CLEAR = 3.0
 """And so many times closer than the right value: what scatters about the truth has no name."""
 
 CLOSE = 0.1
-"""A factor as close as this to 1 has to be in every number: two of three that scatter are so soon."""
+"""A factor as close as this to 1 has to be in every number that was written: two of three that scatter are so soon."""
 
 _PLAYBACK = (24.0, 25.0, 29.97, 30.0, 50.0, 59.94, 60.0)
 _FAR = 1e9  # a number this far off tells of no slip of units
@@ -62,9 +62,9 @@ def _factor(
     if shared is None:
         return None
     factor, ids = shared
-    if abs(factor - 1) < CLOSE and len(ids) < len(ratios):
-        return None
     codes = _codes(factor, names, max(question.tolerance for question in asked))
+    if abs(factor - 1) < CLOSE and len(ids) < len(ratios):
+        codes = tuple(code for code in codes if code in _VAGUE)  # these the student has written down
     return Factor(codes, factor, ids) if codes else None
 
 

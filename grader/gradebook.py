@@ -246,10 +246,10 @@ class Gradebook:
         with self._reader.connect() as connection:
             return receipts_with(connection, status, assignment_id)
 
-    def receipt_of(self, assignment_id: str, pid: str, attempt: int) -> Receipt | None:
-        """Return the newest receipt of a student's attempt, None where there is none."""
+    def receipt_of(self, assignment_id: str, pid: str, attempt: int, source: str = "") -> Receipt | None:
+        """Return the newest receipt of a student's attempt, of one source where it is named; None without one."""
         with self._reader.connect() as connection:
-            return receipt_of(connection, assignment_id, pid, attempt)
+            return receipt_of(connection, assignment_id, pid, attempt, source)
 
     def knows_file(self, sha256: str, assignment_id: str, pid: str = "") -> str:
         """Return what became of these bytes when they came in before, from this student if named; "" if never."""

@@ -187,8 +187,8 @@ def receipts_with(connection: Connection, status: Status, assignment: str = "") 
     return tuple(_receipt(row) for row in connection.execute(wanted).mappings())
 
 
-def receipt_of(connection: Connection, assignment: str, pid: str, attempt: int) -> Receipt | None:
-    """Return the newest receipt of a student's attempt, None where there is none."""
+def receipt_of(connection: Connection, assignment: str, pid: str, attempt: int, source: str = "") -> Receipt | None:
+    """Return the newest receipt of a student's attempt, of one source where it is named; None where there is none."""
     table = tables.receipt
     joined = table.join(tables.submission, table.c.submission_id == tables.submission.c.id).join(
         tables.student, table.c.student_id == tables.student.c.id
@@ -200,6 +200,8 @@ def receipt_of(connection: Connection, assignment: str, pid: str, attempt: int) 
         .where(tables.submission.c.attempt == attempt)
         .order_by(table.c.id.desc())
     )
+    if source:
+        wanted = wanted.where(table.c.source == source)
     row = connection.execute(wanted.limit(1)).mappings().first()
     return None if row is None else _receipt(row)
 

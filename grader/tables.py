@@ -92,7 +92,7 @@ receipt = Table(
     Column("file_sha256", String(64), nullable=False, index=True),
     _text("original_name"),
     Column("source", String(20), nullable=False),  # files, canvas, moodle, blackboard, gradescope
-    Column("lms_ref", Text),  # the number by which the platform knows whose it is
+    Column("lms_ref", Text),  # what the platform knows the file by, no name in it
     _to("student", nullable=True),  # whom the platform names
     _to("submission", nullable=True),  # what it turned out to be
     Column("assignment", String(80), nullable=False, server_default=""),

@@ -2,11 +2,12 @@
 
 Canvas finds student and file by two numbers in a file's name, those of the download that was collected, and shows what
 comes back under the name that the student gave to the file (`content_zipper.rb`, `assignment.rb`). A page would so be
-called a workbook and not open: what goes back is a workbook. Whose it is says the pseudonym, no name leaves.
+called a workbook and not open: what goes back is a workbook. No name leaves, neither the student's nor the file's.
 """
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 from assignments.bundle import zip_bytes
@@ -14,8 +15,10 @@ from grader.enrolment import Student
 from grader.filling.feedback import feedback_name, held_back
 from grader.filling.job import Export, Job, Line
 from grader.gradebook import Gradebook
+from grader.receipts import Receipt
 
-_WORKBOOK = ".xlsx"
+_PLATFORM, _WORKBOOK = "canvas", ".xlsx"
+_REFERENCE = re.compile(r"\d+_\d+|anon_[A-Za-z0-9]{5}_\d+")
 
 
 def write(job: Job, path: Path) -> tuple[Line, ...]:
@@ -23,9 +26,12 @@ def write(job: Job, path: Path) -> tuple[Line, ...]:
     files, lines = dict[str, bytes](), list[Line]()
     with Gradebook.open(job.course) as book:
         for student in job.students:
-            line = held_back(job, student, _WORKBOOK) or _named(job, book, student)
-            if line.status == "filled":
-                files[line.reason] = job.course.shelf.read(feedback_name(job, student, _WORKBOOK))
+            line, receipt = held_back(job, student, _WORKBOOK), _receipt(job, book, student)
+            why = _why_not(receipt)
+            if line is None:
+                line = Line(student.name, "skipped" if why else "filled", reason=why or "feedback", pid=student.pid)
+            if receipt and line.status == "filled":
+                files[_name(student, receipt)] = job.course.shelf.read(feedback_name(job, student, _WORKBOOK))
             lines.append(line)
     path.write_bytes(zip_bytes(files))
     return tuple(lines)
@@ -41,15 +47,21 @@ EXPORT = Export(
 )
 
 
-def _named(job: Job, book: Gradebook, student: Student) -> Line:
-    """Return a line whose reason is the name under which Canvas takes a student's workbook back."""
+def _receipt(job: Job, book: Gradebook, student: Student) -> Receipt | None:
     grade = job.grade_of(student)
-    receipt = book.receipt_of(job.assignment.id, student.pid, grade.attempt) if grade else None
-    if receipt is None or receipt.arrived.source != "canvas" or not receipt.arrived.lms_ref:
-        return Line(student.name, "skipped", reason="was not collected from a download of Canvas", pid=student.pid)
-    name, reference = receipt.arrived.name, receipt.arrived.lms_ref
+    return book.receipt_of(job.assignment.id, student.pid, grade.attempt, _PLATFORM) if grade else None
+
+
+def _why_not(receipt: Receipt | None) -> str:
+    """Return why Canvas cannot take a workbook back, "" when it can."""
+    if receipt is None or not _REFERENCE.fullmatch(receipt.arrived.lms_ref):
+        return "was not collected from a download of Canvas"
+    name = receipt.arrived.name
     if not name.lower().endswith(_WORKBOOK):
-        reason = f"Canvas would show the workbook as {name!r}, which would not open"
-        return Line(student.name, "skipped", reason=reason, pid=student.pid)
-    lead = "" if reference.startswith("anon_") else f"vml-{student.pid}_"
-    return Line(student.name, "filled", reason=f"{lead}{reference}_{name}", pid=student.pid)
+        return f"Canvas would show the workbook as {name!r}, which would not open"
+    return ""
+
+
+def _name(student: Student, receipt: Receipt) -> str:
+    lead = "" if receipt.arrived.lms_ref.startswith("anon_") else f"vml-{student.pid}_"
+    return f"{lead}{receipt.arrived.lms_ref}_feedback{_WORKBOOK}"

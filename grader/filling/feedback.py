@@ -24,5 +24,5 @@ def held_back(job: Job, student: Student, suffix: str) -> Line | None:
     if student.pid in job.stale:
         return Line(student.name, "skipped", reason="graded anew since the release: vml release", pid=student.pid)
     if not job.course.shelf.exists(feedback_name(job, student, suffix)):
-        return Line(student.name, "skipped", reason="has no feedback page", pid=student.pid)
+        return Line(student.name, "skipped", reason="has no feedback file", pid=student.pid)
     return None

@@ -179,6 +179,8 @@ def test_a_factor_close_to_1_has_to_be_in_every_number(find):
     assert find(dict.fromkeys(two, 448 / FPS), key_changes={"truth": {"px_per_m": 448.0, "fps": FPS}}) == ()
     clear = find(dict.fromkeys(two, 400 / FPS), key_changes={"truth": {"px_per_m": 400.0, "fps": FPS}})
     assert [(f.codes, f.ids) for f in clear] == [(("K1c",), two)]
+    own = find({**dict.fromkeys(two, 1.07), "px_per_m": 1 / 1.07})
+    assert [(f.codes, f.ids) for f in own] == [(("K7",), two)]  # what one has written is no accident
     assert [f.codes for f in find(dict.fromkeys(two, -1.0))] == [("K6",)]
     assert [f.codes for f in find(dict.fromkeys(two, 2.0))] == [("K5",)]
 
