@@ -60,7 +60,7 @@ _SAMPLE_SETTINGS = """\
 # [assignment.soccer-kick]
 # opens = 2027-04-12T08:00:00
 # due = 2027-04-26T23:59:00
-# closes = 2027-05-03T23:59:00    # later work is kept, not graded
+# closes = 2027-05-03T23:59:00    # later work is kept, not graded; pages then show true values
 # attempts = 3                    # different contents; 0 is any number
 # counts = "best"                 # or newest, first, mean
 # true_values = "never"           # on students' pages; when over if not given, or always

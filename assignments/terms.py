@@ -113,10 +113,11 @@ class Terms:
     def is_over(self, now: dt.datetime) -> bool:
         """Tell whether nothing can be handed in for points any more, so that answers may be shown.
 
-        Without a last moment the due date is taken for it.
+        Without a last moment this is when lateness takes everything, and never where late work earns something.
         """
-        last = self.closes or self.due
-        return last is not None and now > last
+        if self.closes is not None:
+            return now > self.closes
+        return self.late.share_off(self.late_s(now)) >= 1.0
 
     def shows_truth(self, now: dt.datetime, attempts: int) -> bool:
         """Tell whether somebody who has handed in so many attempts may see true values."""

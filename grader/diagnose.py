@@ -26,6 +26,7 @@ from grader.weighing import Cell, likely
 
 OWN_TOLERANCE = 0.005
 FINE_TOLERANCE = 0.0005  # beyond the printed digits
+COARSE = 0.03  # of its value: who writes one digit only fits some mistake or other
 LARGEST_GROUP = 3
 _LEAST_CELLS = 3  # that tell how many digits a student writes
 TRUTH_TOLERANCE: Mapping[str, float] = {"e": 0.03, "I": 0.08}
@@ -70,6 +71,8 @@ def diagnose_answer(
     if any(follows_from(stated, way, formula) for way in ways for formula in right):
         return None
     digits = usual_digits(submission, questions)
+    if digits and _sharp(stated, digits).half_unit > COARSE * abs(stated.value):
+        return None
     others = _other_cells(quantity, submission, book, questions, digits)
     sharp_ways = [_sharp_way(way, digits) for way in ways]
     codes, basis = _from_own(_sharp(stated, digits), sharp_ways, mistakes, others), "own"

@@ -118,6 +118,7 @@ def feedback_page(report: Report) -> str:
         steps=steps_of(report),
         groups=[_group(report, title, questions) for title, questions in report.assignment.question_groups().items()],
         show_truth=report.show_truth,
+        never_true=report.terms.true_values == "never",
         tracking=[_finding(f) for f in grade.of("tracking")],
         charts=_charts(report, fit) if fit and report.show_truth else (),
         picture=_picture(report, fit),

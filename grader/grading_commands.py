@@ -185,6 +185,7 @@ def release(
     Example: vml release soccer-kick --course dynamics-2026
     """
     from grader.usecases import release as release_now
+    from grader.usecases import truth_note
 
     with resumable(), progress("writing pages") as show:
         changes = release_now(
@@ -205,6 +206,8 @@ def release(
     open_ = sum(change.is_provisional for change in changes)
     if open_:
         typer.echo(f"{open_} may still become fewer points: settle them first with vml gradebook set.")
+    if show_truth is None and (note := truth_note(the_course(course), assignment)):
+        typer.echo(note)
     typer.echo(
         "Nothing was released (--dry-run)." if dry_run else f"Next: vml export {assignment} --to csv --course {course}"
     )

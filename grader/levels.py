@@ -13,7 +13,7 @@ CONCLUSION = "conclusion"
 LEVELS: Mapping[str, str] = {
     "Measurement": "scale, frame rate, velocities and the tracking table, against the truth",
     "Processing": "formulas, worked out again from the numbers that you wrote",
-    "Conclusion": "final values and their units, against the truth",
+    "Conclusion": "final values and their units, against the truth or what an error counted before leads to",
 }
 """Each level with what belongs to it."""
 

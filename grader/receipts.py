@@ -67,7 +67,8 @@ def handed_in_at(terms: Terms, told: dt.datetime | None, *, is_late: bool | None
     """Return when something counts as handed in.
 
     Most platforms do not say in a download when a file came. Then it counts as in time, unless the platform calls
-    it late: a class that is collected the day after must not be late as a whole.
+    it late: a class that is collected the day after must not be late as a whole. What it calls late, and does not say
+    when, counts as just late: nobody loses more because it is collected later.
 
     Parameters
     ----------
@@ -81,7 +82,10 @@ def handed_in_at(terms: Terms, told: dt.datetime | None, *, is_late: bool | None
     """
     if told is not None:
         return told
-    return moment if is_late or terms.due is None else min(moment, terms.due)
+    if terms.due is None:
+        return moment
+    just_late = terms.due + dt.timedelta(minutes=terms.late.grace_minutes, seconds=1)
+    return min(moment, just_late if is_late else terms.due)
 
 
 def add_receipt(connection: Connection, arrived: Arrived) -> int:

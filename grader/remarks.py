@@ -28,7 +28,7 @@ def remarks_on_number(
     is_near : bool
         Whether the value is of the size asked for: digits of pixels or of another clock say nothing.
     """
-    if is_near:
+    if is_near and question.dimension != "rate":  # a frame rate is read off, not rounded: 480 is 480.0
         yield from _digits(stated, key.expected_sd.get(question.id, 0.0), half_width)
     if stated.uncertainty:
         yield _uncertainty(stated.value - key.values[question.id], stated.uncertainty, half_width)

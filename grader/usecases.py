@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import datetime as dt
 from collections.abc import Sequence
 from dataclasses import asdict, replace
 
@@ -76,6 +77,17 @@ def release(
             _rewrite_pages(course, gradebook, gradebook.rows(assignment_id), progress, Wanted(show_truth, workers=0))
             write_class_page(course, gradebook, load_assignment(assignment_id, course.assignments))
     return changes
+
+
+def truth_note(course: Course, assignment_id: str) -> str:
+    """Return why pages show no true values though nobody has said so, "" where they do or somebody has."""
+    terms = course.calendar.terms_of(assignment_id)
+    if terms.true_values != "when over" or terms.is_over(dt.datetime.now(dt.UTC)):
+        return ""
+    return (
+        "Pages show no true values while work can still earn points: say in course.toml when it closes, and release "
+        "again after that, or show them now with --show-truth."
+    )
 
 
 def extend_student(course: Course, given: Extension) -> list[str]:

@@ -79,11 +79,23 @@ def test_lateness_counts_from_the_due_moment_in_any_zone() -> None:
     assert terms.late_s(DUE - dt.timedelta(hours=1)) == 0.0
     assert [terms.is_closed(DUE + dt.timedelta(hours=h)) for h in (2, 2.01)] == [False, True]
     assert [terms.is_over(DUE + dt.timedelta(hours=h)) for h in (2, 2.01)] == [False, True]
-    assert [Terms(due=DUE).is_over(DUE + dt.timedelta(hours=h)) for h in (0, 0.01)] == [False, True]
+
+
+def test_without_a_last_moment_it_is_over_when_lateness_takes_everything() -> None:
+    """As long as late work earns something, a true value that is shown is an answer."""
+    quarters = Late("linear", share=0.25, per_hours=1, grace_minutes=30)
+    assert [Terms(due=DUE, late=quarters).is_over(DUE + dt.timedelta(hours=h)) for h in (0, 3, 3.01)] == [
+        False,
+        False,
+        True,
+    ]
+    for late in (Late(), Late("linear", share=0.25, per_hours=1, cap=0.9), Late("fixed", share=0.5)):
+        assert not Terms(due=DUE, late=late).is_over(DUE + dt.timedelta(days=999))
+    assert Terms(due=DUE, late=Late("fixed", share=1.0)).is_over(DUE + dt.timedelta(seconds=1))
 
 
 def test_true_values_are_seen_when_nothing_can_be_handed_in_any_more() -> None:
-    terms, later = Terms(due=DUE, attempts=3), DUE + dt.timedelta(hours=1)
+    terms, later = Terms(due=DUE, closes=DUE, attempts=3), DUE + dt.timedelta(hours=1)
     assert [terms.shows_truth(DUE, attempts) for attempts in (0, 2, 3, 4)] == [False, False, True, True]
     assert terms.shows_truth(later, 0)
     assert not Terms().shows_truth(later, 99)

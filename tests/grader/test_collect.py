@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from assignments.terms import Terms
+from assignments.terms import Late, Terms
 from grader.collect import collect
 from grader.errors import CollectError, NothingGradedError
 from grader.grade import grade
@@ -141,14 +141,14 @@ def test_a_changed_file_in_the_inbox_shows(term, capsys) -> None:
     [
         (None, None, DUE),  # the platform does not say: in time
         (None, False, DUE),
-        (None, True, DUE + dt.timedelta(hours=5)),
+        (None, True, DUE + dt.timedelta(minutes=15, seconds=1)),  # late, not said when: nobody pays for collecting late
         (DUE + dt.timedelta(hours=1), None, DUE + dt.timedelta(hours=1)),
         (DUE - dt.timedelta(hours=1), True, DUE - dt.timedelta(hours=1)),
     ],
 )
 def test_when_something_was_handed_in(told, is_late, expected) -> None:
-    moment = DUE + dt.timedelta(hours=5)
-    assert handed_in_at(Terms(due=DUE), told, is_late=is_late, moment=moment) == expected
+    moment, terms = DUE + dt.timedelta(hours=5), Terms(due=DUE, late=Late(grace_minutes=15))
+    assert handed_in_at(terms, told, is_late=is_late, moment=moment) == expected
     assert handed_in_at(Terms(), None, is_late=is_late, moment=moment) == moment
 
 
@@ -362,12 +362,15 @@ def test_an_extension_is_on_the_students_page_at_once(term) -> None:
     assert "are taken off" not in _page(term)
 
 
-def test_a_release_writes_true_values_when_the_time_is_over(term) -> None:
-    term.say("[assignment.soccer-kick]\ndue = 2126-05-01T22:00:00\n")
+def test_a_release_writes_true_values_when_the_time_is_over(term, capsys) -> None:
+    late = 'due = 2026-05-01T22:00:00\nlate = { rule = "fixed", share = 0.5 }\n'
+    term.say(f"[assignment.soccer-kick]\n{late}")
     collect(term.course, SLUG, term.download(**{"s_901_1_lab.xlsx": term.file(0)}))
     grade_collected(term.course, SLUG)
-    assert "True value" not in _page(term)
-    term.say("[assignment.soccer-kick]\ndue = 2026-05-01T22:00:00\n")
+    assert "True value" not in _page(term)  # late work earns half
+    assert run(["release", SLUG, "--course", str(term.course.folder)]) == 0
+    assert "Pages show no true values while work can still earn points" in capsys.readouterr().out
+    term.say(f"[assignment.soccer-kick]\n{late}closes = 2026-05-02T22:00:00\n")
     release(term.course, SLUG, who="ann", show_truth=False)
     assert "True value" not in _page(term)
     release(term.course, SLUG, who="ann")

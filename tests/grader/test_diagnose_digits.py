@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from assignments.model import Question
-from grader.diagnose import Candidate, _sharper, matching, usual_digits
+from grader.diagnose import Candidate, _sharper, diagnose_answer, matching, usual_digits
 from grader.model import Answer, Kind, Submission
 from grader.stated import Stated
 
@@ -67,3 +67,12 @@ def test_where_it_is_not_known_how_many_digits_are_usual_a_cell_is_taken_as_it_s
     assert _sharper(0.0, 0.5, 4) == 0.5
     assert _sharper(12.0, 0.5, 4) == pytest.approx(0.005)
     assert _sharper(12.345, 0.0005, 3) == 0.0005
+
+
+def test_a_student_who_writes_one_digit_is_told_no_mistake(kit, desk):
+    """0.6 is within its rounding of half of what the catalogue holds."""
+    questions = {question.id: question for question in desk.assignment.questions}
+    written = {"v_f1": 9.0, "v_f2": 7.0, "v_b1": 0.0, "v_b2": 8.0}
+    for value in (0.3, 0.5, 0.6, 0.8, 2.0):  # 0.1 would follow
+        submission = kit.submission_of(desk.assignment, {**written, "e": value})
+        assert diagnose_answer("e", submission, desk.key, questions) is None

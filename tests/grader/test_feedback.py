@@ -84,6 +84,13 @@ def test_nothing_true_is_shown_while_attempts_remain(desk, kit):
     assert "true curves are shown when" in page
 
 
+def test_a_page_that_never_shows_true_curves_promises_none(desk, kit):
+    report = replace(report_of(desk, kit), show_truth=False)
+    assert "The true curves are shown when nothing can be handed in" in feedback_page(report)
+    page = feedback_page(replace(report, terms=Terms(true_values="never")))
+    assert "The true curves are not shown in this course." in page
+
+
 def test_the_picture_shows_both_points_where_they_are(desk, kit):
     """The table is exact, so that the student's point lies on the true one."""
     page = feedback_page(replace(report_of(desk, kit), frame=FRAME))

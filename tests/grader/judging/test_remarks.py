@@ -35,6 +35,12 @@ def test_digits_are_remarked_where_they_are_too_few_or_say_too_much(kick, half_u
     assert bool(said) == bool(words)
 
 
+def test_digits_of_a_frame_rate_are_not_talked_of(kick):
+    """480 frames a second are 480, though the last digit is coarser than a tolerance of 0.1 %."""
+    stated = Stated(480.0, 0.5, "", unit_given=True)
+    assert list(remarks_on_number(stated, kick.question("fps"), kick.key, 0.48)) == []
+
+
 def test_without_a_known_sd_no_digit_is_too_much(kick):
     assert remarks(kick, 0.75, 1e-12, sd=0.0) == ""
     stated = Stated(0.75, 1e-12, "", unit_given=True)
