@@ -18,7 +18,7 @@ from pydantic import ValidationError
 
 from assignments.course_file import CourseFile
 from assignments.errors import CourseError
-from assignments.load import assignment_ids, named_mistakes
+from assignments.load import named_mistakes
 from assignments.locate import line_of
 from assignments.secret import SECRET_FILE, read_secret, write_secret
 from assignments.terms import Calendar, Extension
@@ -184,18 +184,6 @@ def add_extension(course: Course, given: Extension) -> Course:
     settings = _understood(text, course.shelf.place(COURSE_FILE))
     course.shelf.write(COURSE_FILE, text.encode())
     return replace(course, calendar=settings.calendar())
-
-
-def strangers_in(course: Course) -> list[str]:
-    """Return a sentence for each assignment that the settings name and that does not exist."""
-    own = {folder.name for folder in course.assignments.iterdir()} if course.assignments.is_dir() else set()
-    known = sorted({*assignment_ids(), *own})
-    named = [*(course.calendar.terms or {}), *(one.assignment for one in course.calendar.extensions if one.assignment)]
-    return [
-        f"{COURSE_FILE}: {name!r} is no assignment of this course ({', '.join(known)}): its terms have no effect."
-        for name in dict.fromkeys(named)
-        if name not in known
-    ]
 
 
 def has_sample_roster(course: Course) -> bool:

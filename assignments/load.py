@@ -35,6 +35,12 @@ def assignment_ids() -> tuple[str, ...]:
     return tuple(sorted(names, key=lambda name: (name != TO_BEGIN_WITH, name)))
 
 
+def known_assignments(also: Path | None = None) -> tuple[str, ...]:
+    """Return the ids of the catalogue, then those in a folder of further assignments; no file is read."""
+    own = (file.parent.name for file in sorted(also.glob(f"*/{FILE}"))) if also else ()
+    return tuple(dict.fromkeys((*assignment_ids(), *own)))
+
+
 def load_assignment(assignment: str, also: Path | None = None) -> Assignment:
     """Read an assignment: one of the catalogue, or an instructor's own folder.
 
@@ -67,8 +73,7 @@ def assignment_folder(assignment: str, also: Path | None = None) -> Path:
     for place in (*places, Path(assignment)):
         if (place / FILE).is_file():
             return place.resolve()
-    known = [*assignment_ids(), *(folder.parent.name for folder in sorted(also.glob(f"*/{FILE}")))] if also else None
-    raise UnknownNameError("assignment", assignment, known or assignment_ids())
+    raise UnknownNameError("assignment", assignment, known_assignments(also))
 
 
 def load_folder(folder: Path) -> Assignment:

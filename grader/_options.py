@@ -18,14 +18,34 @@ CourseOption = Annotated[
 JsonOption = Annotated[bool, typer.Option("--json", help="Print the result as JSON.")]
 
 
-def the_course(place: str) -> Course:
-    """Open a course, and say on standard error what in its settings has no effect."""
-    from assignments.course import open_course, strangers_in  # noqa: PLC0415 - as in every command
+def the_course(place: str, arriving: str = "") -> Course:
+    """Open a course whose settings name only what exists; `arriving` is as in `check_assignments`.
+
+    An unknown assignment is refused: a lost due date is found out too late, and mended with one edit. An unknown
+    student is said on standard error only: the class list may come later.
+
+    Raises
+    ------
+    CourseError
+    """
+    from assignments.course import open_course  # noqa: PLC0415 - as in every command
+    from assignments.course_names import check_assignments, unknown_students  # noqa: PLC0415
 
     course = open_course(place)
-    for line in strangers_in(course):
-        typer.echo(line, err=True)
+    check_assignments(course, arriving)
+    if course.calendar.extensions:
+        for mistake in unknown_students(course, _pids(course)):
+            typer.echo(str(mistake), err=True)
     return course
+
+
+def _pids(course: Course) -> tuple[str, ...]:
+    from grader.gradebook import Gradebook, is_begun  # noqa: PLC0415
+
+    if not is_begun(course):
+        return ()
+    with Gradebook.open(course) as book:
+        return tuple(student.pid for student in book.students())
 
 
 def print_json(result: Any) -> None:

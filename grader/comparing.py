@@ -8,12 +8,13 @@ from dataclasses import dataclass
 from assignments.course import Course
 from assignments.load import load_assignment
 from assignments.model import AnswerKey, Assignment
-from grader.findings import Newest, add_findings, brought_by_another, findings_of, keys_of_class, newest_files
+from grader.findings import Newest, add_findings, findings_of, keys_of_class, newest_files
 from grader.gradebook import Gradebook
 from grader.inbox import kept_name
 from grader.integrity import Evidence, HandedIn, compare
 from grader.read import ReadRequest, read_isolated
 from grader.read.locate import find_submission
+from grader.shared_files import shared_files
 from grader.template import template_cells
 from vml_course.errors import VmlError
 
@@ -55,7 +56,7 @@ def compare_class(course: Course, assignment_id: str, progress: Progress | None 
     with Gradebook.open(course) as book:
         with book.reading() as connection:
             files, keys = newest_files(connection, assignment_id), keys_of_class(connection, assignment_id)
-            found = list(brought_by_another(connection, assignment_id))
+        found = list(shared_files(course, book, assignment_id))
         handed, unread = list[HandedIn](), list[str]()
         for done, file in enumerate(files, start=1):
             try:

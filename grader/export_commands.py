@@ -55,6 +55,7 @@ def export(
     """Write what a learning platform takes back, from the newest release.
 
     Platforms are picky about their own files. So give the one that the platform exports: only grades are filled in.
+    Points that a person has still to confirm are written too, and said: the exit code is then 1.
 
     Example: vml export soccer-kick --to canvas --template Grades-DYN.csv --course dynamics-2026
     """
@@ -68,6 +69,12 @@ def export(
         _print(done.lines)
         counts = Counter(line.status for line in done.lines)
         typer.echo(", ".join(f"{number} {status}" for status, number in counts.items()) or "Nobody.")
+        open_ = sum(line.is_open for line in done.lines)
+        if open_:
+            typer.echo(
+                f"{open_} with open points, written as if all were earned. Settle them: "
+                f"vml gradebook set PID {assignment} QUESTION POINTS; then vml release {assignment}, and export again."
+            )
         if done.stale:
             typer.echo(
                 f"{done.stale} grades have changed since the release and are not in it: vml release {assignment}."

@@ -11,7 +11,7 @@ from grader.errors import NothingReleasedError
 from grader.exports import export_to
 from grader.filling.job import Decimal, Job, Line, Template
 from grader.filling.numbers import points_text
-from grader.gradebook import Gradebook
+from grader.gradebook import Gradebook, Row
 from grader.releasing import Released, released_grades
 from vml_course.errors import InputError
 from vml_course.io.files import check_not_source, existing, replacing
@@ -86,14 +86,15 @@ def _job(course: Course, assignment_id: str) -> Job:
     assignment = load_assignment(assignment_id, course.assignments)
     with Gradebook.open(course) as book:
         grades = {one.student.pid: one for one in released_grades(book, assignment.id)}
-        now = {row.student.pid: (row.attempt, row.points) for row in book.rows(assignment.id)}
+        now = {row.student.pid: row for row in book.rows(assignment.id)}
         students = book.students()
     stale = frozenset(pid for pid, one in grades.items() if _differs(one, now.get(pid)))
-    return Job(course, assignment, students, grades, stale)
+    unsettled = frozenset(pid for pid in grades.keys() - stale if now[pid].is_provisional)
+    return Job(course, assignment, students, grades, stale, unsettled)
 
 
-def _differs(released: Released, now: tuple[int, float] | None) -> bool:
-    return now is None or now[0] != released.attempt or abs(now[1] - released.points) > 1e-9
+def _differs(released: Released, now: Row | None) -> bool:
+    return now is None or now.attempt != released.attempt or abs(now.points - released.points) > 1e-9
 
 
 def _template(path: Path | None) -> Template | None:

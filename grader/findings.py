@@ -12,7 +12,7 @@ from assignments import key as keys
 from assignments.model import AnswerKey
 from grader import tables
 from grader.events import now
-from grader.integrity import NEVER, Evidence
+from grader.integrity import Evidence
 
 
 @dataclass(frozen=True)
@@ -47,29 +47,6 @@ def keys_of_class(connection: Connection, assignment_id: str) -> Mapping[str, An
         .order_by(tables.answer_key.c.id)
     )
     return {pid: keys.from_json(json.loads(text)) for pid, text in connection.execute(wanted)}
-
-
-def brought_by_another(connection: Connection, assignment_id: str) -> tuple[Evidence, ...]:
-    """Return workbooks that a platform received from one student and that were made for another."""
-    giver, owner = tables.student.alias("giver"), tables.student.alias("owner")
-    joined = (
-        tables.receipt.join(tables.submission, tables.receipt.c.submission_id == tables.submission.c.id)
-        .join(tables.variant, tables.submission.c.variant_id == tables.variant.c.id)
-        .join(tables.assignment, tables.variant.c.assignment_id == tables.assignment.c.id)
-        .join(giver, tables.receipt.c.student_id == giver.c.id)
-        .join(owner, tables.variant.c.student_id == owner.c.id)
-    )
-    wanted = (
-        select(giver.c.pid, owner.c.pid)
-        .select_from(joined)
-        .where(tables.assignment.c.slug == assignment_id, giver.c.id != owner.c.id)
-        .distinct()
-    )
-    words = (
-        "The student handed in the workbook that was made for another one; its signed code says so. "
-        "Somebody who took the wrong file, or handed in for a friend, does the same."
-    )
-    return tuple(Evidence(*row, "other-student", 1.0, NEVER, words) for row in connection.execute(wanted))
 
 
 def add_findings(connection: Connection, assignment_id: str, found: Iterable[Evidence]) -> int:

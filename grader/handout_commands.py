@@ -73,7 +73,9 @@ def _hand_out(course: str, assignment: str, pids: Sequence[str], workers: int, c
     from grader.handing_out import hand_out_to
 
     with resumable(), counted("handing out", "students") as show:
-        handed = hand_out_to(the_course(course), assignment, pids, workers=workers, cluster=cluster, progress=show)
+        handed = hand_out_to(
+            the_course(course, assignment), assignment, pids, workers=workers, cluster=cluster, progress=show
+        )
     if as_json:
         print_json([asdict(item) for item in handed.results])
     else:
@@ -106,7 +108,7 @@ def _print_handed(handed: Handed) -> None:
 def _look_ahead(course: str, assignment: str, pids: Sequence[str], *, as_json: bool) -> None:
     from grader.handing_out import expect
 
-    expected = expect(the_course(course), assignment, pids)
+    expected = expect(the_course(course, assignment), assignment, pids)
     if as_json:
         print_json([asdict(item) for item in expected])
         return
@@ -128,7 +130,7 @@ def _plan(course: str, assignment: str, pids: Sequence[str], plot: Path | None, 
     from vml_course.chart.svg import to_svg
     from vml_course.io.files import replacing
 
-    opened = the_course(course)
+    opened = the_course(course, assignment)
     with resumable(), progress("looking ahead") as show:
         plan = plan_for(opened, assignment, pids, progress=show)
     home = opened.handouts(assignment).parent

@@ -66,7 +66,8 @@ class Evidence:
     pid, other : str
         The student whose workbook shows it, and the one with whom it is shared; "" when nobody else is concerned.
     method : str
-        `other-video`, `same-noise`, `same-cells`, `same-file`, `other-workbook` or `other-student`.
+        `other-video`, `same-noise`, `same-cells`, `same-file`, `other-workbook`, and of receipts `other-student` or
+        `same-bytes` (`grader.shared_files`).
     statistic : float
         A distance in px, a correlation, a share of cells ..., as `words` say.
     false_positive_rate : float

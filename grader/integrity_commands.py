@@ -23,11 +23,13 @@ def integrity(
 ) -> None:
     """Compare the workbooks of a class: whose table follows whose video, who shares noise, cells or files.
 
-    What is found is evidence to look at. It changes no grade, and no student's page shows it.
+    Files that a platform received from one student and that are another's are named too, graded or not. What is found
+    is evidence to look at. It changes no grade, and no student's page shows it.
 
     Example: vml integrity soccer-kick --course dynamics-2026
     """
     from grader.comparing import compare_class
+    from grader.shared_files import TOLD_BY_RECEIPTS
 
     with progress("comparing") as show:
         result = compare_class(the_course(course), assignment, show)
@@ -35,7 +37,8 @@ def integrity(
         print_json(asdict(result))
         return
     for item in result.evidence:
-        typer.echo(f"{item.pid:10}{item.other or '–':10}{item.method:16}{_rate(item.false_positive_rate)}")
+        rate = "from the receipts" if item.method in TOLD_BY_RECEIPTS else _rate(item.false_positive_rate)
+        typer.echo(f"{item.pid:10}{item.other or '–':10}{item.method:16}{rate}")
         typer.echo(f"{'':10}{item.words}")
     for pid in result.unread:
         typer.echo(f"{pid:10}could not be read again")

@@ -7,14 +7,14 @@ from collections.abc import Sequence
 from dataclasses import asdict, replace
 
 from assignments.course import Course, add_extension
-from assignments.load import load_assignment
+from assignments.load import known_assignments, load_assignment
 from assignments.terms import Extension
 from assignments.words import symbol_text
 from grader.adjust import Adjustment
 from grader.gradebook import Gradebook, Row
 from grader.marker import Marker, Progress, Wanted, silent, write_class_page
 from grader.releasing import Change, release_grades
-from vml_course.errors import InputError
+from vml_course.errors import InputError, UnknownNameError
 
 ON_ALL_CORES = Wanted(workers=0)
 
@@ -96,9 +96,14 @@ def extend_student(course: Course, given: Extension) -> list[str]:
     Raises
     ------
     InputError, CourseError
+    UnknownNameError
+        When there is no such assignment.
     """
     if not given.hours and not given.attempts:
         raise InputError("extension", "--hours or --attempts above 0", "neither")
+    known = known_assignments(course.assignments)
+    if given.assignment and given.assignment not in known:
+        raise UnknownNameError("assignment", given.assignment, known)
     with Gradebook.open(course) as gradebook:
         gradebook.student(given.student)
         extended = add_extension(course, given)

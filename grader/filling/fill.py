@@ -89,6 +89,14 @@ def no_grade(job: Job, student: Student) -> Line | None:
     return None
 
 
+def open_text(job: Job, student: Student) -> str:
+    """Say that a student's released points are not final, "" where they are."""
+    released = job.grade_of(student)
+    if released is None or student.pid not in job.unsettled:
+        return ""
+    return f"open: up to {points_text(released.points)} of {points_text(released.out_of)}, a person has to look"
+
+
 def _fill_cell(table: TextTable, row: int, column: Column, student: Student, job: Job, blocked: str) -> Line:
     none, released = no_grade(job, student), job.grade_of(student)
     if none is not None or released is None:
@@ -100,11 +108,12 @@ def _fill_cell(table: TextTable, row: int, column: Column, student: Student, job
     blocked = blocked or _reason_to_leave(before, old, points, column)
     if blocked:
         return Line(student.name, "skipped", text, blocked, student.pid)
-    if old is not None and points_text(old, comma=column.comma) == text:
-        return Line(student.name, "unchanged", text, scaled, student.pid)
-    table.put(row, column.at, text)
-    replaced = f"was {before}" if old is not None else ""
-    return Line(student.name, "filled", text, "; ".join(filter(None, (scaled, replaced))), student.pid)
+    is_same, open_ = old is not None and points_text(old, comma=column.comma) == text, open_text(job, student)
+    if not is_same:
+        table.put(row, column.at, text)
+    replaced = f"was {before}" if old is not None and not is_same else ""
+    reason = "; ".join(filter(None, (open_, scaled, replaced)))
+    return Line(student.name, "unchanged" if is_same else "filled", text, reason, student.pid, bool(open_))
 
 
 def _reason_to_leave(before: str, old: float | None, points: float, column: Column) -> str:

@@ -19,18 +19,22 @@ Decimal = Literal["auto", "point", "comma"]
 
 @dataclass(frozen=True)
 class Line:
-    """What became of one student: `reason` says why nothing was written, or how points were scaled."""
+    """What became of one student: `reason` says why nothing was written, or how points were scaled.
+
+    `is_open` tells that points were written which a person has still to confirm.
+    """
 
     name: str
     status: Status
     points: str = ""
     reason: str = ""
     pid: str = ""
+    is_open: bool = False
 
     @property
     def needs_attention(self) -> bool:
-        """Whether a person should look: a grade did not get into the file."""
-        return self.status in {"skipped", "not in template"}
+        """Whether a person should look: a grade did not get into the file, or one that is not final did."""
+        return self.is_open or self.status in {"skipped", "not in template"}
 
 
 @dataclass(frozen=True)
@@ -53,6 +57,8 @@ class Job:
         Of the newest release, by pseudonym.
     stale : frozenset of str
         Pseudonyms of those whose grade has changed since that release.
+    unsettled : frozenset of str
+        Pseudonyms of those whose released points may still become fewer: a person has to look.
     template : Template or None
     column : str
         The heading of the column to fill, where the assignment's title does not say it.
@@ -67,6 +73,7 @@ class Job:
     students: tuple[Student, ...] = ()
     grades: Mapping[str, Released] | None = None
     stale: frozenset[str] = frozenset()
+    unsettled: frozenset[str] = frozenset()
     template: Template | None = None
     column: str = ""
     decimal: Decimal = "auto"

@@ -10,7 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from assignments.course import COURSE_FILE, add_extension, new_course, open_course, strangers_in
+from assignments.course import COURSE_FILE, add_extension, new_course, open_course
+from assignments.course_names import check_assignments
 from assignments.errors import CourseError
 from assignments.terms import Extension, Late, Terms
 
@@ -164,12 +165,26 @@ def test_two_courses_of_like_names_have_homes_of_their_own(tmp_path: Path, monke
     assert one.secret != other.secret
 
 
-def test_terms_of_an_assignment_that_does_not_exist_are_said_to_have_no_effect(tmp_path: Path) -> None:
+def test_terms_of_an_assignment_that_does_not_exist_are_refused(tmp_path: Path) -> None:
     _course(tmp_path, FULL.replace("two-pucks", "two-puks"))
-    (line,) = strangers_in(open_course(tmp_path))
-    assert line.startswith("course.toml: 'two-puks' is no assignment of this course (ballistic-pendulum, bat-and-ball,")
-    (tmp_path / "assignments" / "two-puks").mkdir(parents=True)
-    assert strangers_in(open_course(tmp_path)) == []
+    with pytest.raises(CourseError) as caught:
+        check_assignments(open_course(tmp_path))
+    assert str(caught.value).startswith(
+        "course.toml, line 16, [assignment.two-puks]: expected an assignment that there is (nearest: two-pucks), "
+        "got 'two-puks'. What it says would have no effect."
+    )
+    own = tmp_path / "assignments" / "two-puks"
+    own.mkdir(parents=True)
+    with pytest.raises(CourseError, match="two-puks"):
+        check_assignments(open_course(tmp_path))  # a folder without an assignment in it
+    (own / "assignment.toml").touch()
+    check_assignments(open_course(tmp_path))
+
+
+def test_a_name_that_resembles_none_is_told_with_all_there_are(tmp_path: Path) -> None:
+    _course(tmp_path, FULL.replace("two-pucks", "qqq"))
+    with pytest.raises(CourseError, match=r"there is \(soccer-kick, ballistic-pendulum, .*\), got 'qqq'"):
+        check_assignments(open_course(tmp_path))
 
 
 def test_all_mistakes_are_told_at_once_in_the_order_of_the_file(tmp_path: Path) -> None:

@@ -9,7 +9,7 @@ import pytest
 from sqlalchemy import create_engine, insert
 
 from grader import tables
-from grader.findings import add_findings, brought_by_another, findings_of, keys_of_class, newest_files
+from grader.findings import add_findings, findings_of, keys_of_class, newest_files
 from grader.integrity import NEVER, NO_BOUND, SELDOM, Evidence, HandedIn, compare
 from grader.integrity_commands import _rate
 from grader.residuals import correlations, residual_of
@@ -195,20 +195,6 @@ def test_evidence_is_added_once(connection):
     assert add_findings(connection, "soccer-kick", [ALONE, EVIDENCE]) == 0
     assert findings_of(connection, "soccer-kick") == (EVIDENCE, ALONE)
     assert findings_of(connection, "another") == ()
-
-
-def test_a_workbook_brought_by_another_student_is_told(connection):
-    line = {"variant_id": 2, "attempt": 1, "received_at": "2027", "file_sha256": "a", "content_sha256": "b"}
-    connection.execute(insert(tables.submission).values(**line, original_name="w.xlsx"))
-    receipt = {"received_at": "2027", "collected_at": "2027", "file_sha256": "a", "original_name": "w.xlsx"}
-    receipt |= {"source": "canvas", "submission_id": 1, "status": "graded"}
-    connection.execute(insert(tables.receipt).values(**receipt, student_id=2))
-    assert brought_by_another(connection, "soccer-kick") == ()
-    connection.execute(insert(tables.receipt).values(**receipt, student_id=1))
-    (item,) = brought_by_another(connection, "soccer-kick")
-    assert (item.pid, item.other, item.method) == ("p1", "p2", "other-student")
-    assert item.false_positive_rate == NEVER
-    assert "wrong file" in item.words
 
 
 def test_the_newest_attempt_is_compared(connection):

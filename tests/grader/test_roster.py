@@ -286,16 +286,27 @@ def test_the_commands_take_in_show_drop_and_forget(tmp_path: Path, capsys) -> No
 
 def test_an_extension_is_kept_in_the_settings_and_in_the_chain(tmp_path: Path, capsys) -> None:
     course = new_course(tmp_path / "c")
-    text = course.shelf.read("course.toml") + b"[assignment.kick]\ndue = 2027-04-26T23:59:00\nattempts = 2\n"
+    text = course.shelf.read("course.toml") + b"[assignment.soccer-kick]\ndue = 2027-04-26T23:59:00\nattempts = 2\n"
     course.shelf.write("course.toml", text)
     with Gradebook.open(course) as book:
         pid = book.students_from_roster(course.roster)[0].pid
     words = ["gradebook", "extend", pid, "--hours", "24", "--attempts", "1", "--reason", "ill", "--course"]
     assert run([*words, str(tmp_path / "c")]) == 0
-    assert f"{pid}  kick: due Tuesday 27 April 2027, 23:59 (UTC), 3 attempts" in capsys.readouterr().out
+    assert f"{pid}  soccer-kick: due Tuesday 27 April 2027, 23:59 (UTC), 3 attempts" in capsys.readouterr().out
     assert run(["gradebook", "verify", "--course", str(tmp_path / "c")]) == 0
     assert "Chain of events: 4 events, unbroken." in capsys.readouterr().out
     assert run(["gradebook", "extend", "zz", "--hours", "1", "--reason", "x", "--course", str(tmp_path / "c")]) == 2
+
+
+def test_an_extension_of_an_assignment_that_does_not_exist_is_not_written(tmp_path: Path, capsys) -> None:
+    course = new_course(tmp_path / "c")
+    with Gradebook.open(course) as book:
+        pid = book.students_from_roster(course.roster)[0].pid
+    before = course.shelf.read("course.toml")
+    words = ["gradebook", "extend", pid, "--assignment", "soccerkick", "--hours", "1", "--reason", "x", "--course"]
+    assert run([*words, str(tmp_path / "c")]) == 2
+    assert "assignment: expected one of soccer-kick," in capsys.readouterr().err
+    assert course.shelf.read("course.toml") == before
 
 
 # ---------------------------------------------------------------- the course's own file

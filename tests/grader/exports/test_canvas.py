@@ -167,3 +167,15 @@ def test_numbers_that_contradict_a_name_are_believed(desk) -> None:
 def test_without_a_template_it_says_which_file_is_meant(desk) -> None:
     with pytest.raises(InputError, match="gradebook of Canvas exports"):
         desk.run("canvas")
+
+
+def test_points_that_a_person_has_still_to_confirm_are_said_to_be_open_written_or_there_before(desk) -> None:
+    unsettled = frozenset({"jane2345", "jurg2345", "anab2345"})
+    desk.run(
+        "canvas", CANVAS.replace("jmueller,ME-101-01,3.00", "jmueller,ME-101-01,6.17").encode(), unsettled=unsettled
+    )
+    jane, juerg = desk.lines["Jane Doe"], desk.lines["Jürg Müller"]
+    assert jane.reason == "open: up to 17 of 20, a person has to look; 17 of 20, scaled to 10"
+    assert (juerg.status, juerg.is_open) == ("unchanged", True)
+    assert juerg.reason.startswith("open: up to 12.35 of 20, a person has to look")
+    assert not desk.lines["Ana Smith"].is_open  # excused: nothing of hers was written

@@ -46,7 +46,8 @@ def mark(book, kit, desk, i: int, pid: str, changes: dict) -> None:
     code = f"CODE{i}"
     key = kit.key_of(desk.numbers, code=code, student=pid)
     book.keep_key(kit.variant_of("signed", code, pid), key)
-    submission = kit.submission_of(desk.assignment, {**desk.truth, **changes})
+    table = kit.table_of(kit.trajectory_m(desk.numbers))  # without one a person has to look
+    submission = kit.submission_of(desk.assignment, {**desk.truth, **changes}, tracking=table)
     submission = kit.replace(submission, code=code, content_sha256=f"{i}{changes}", file_sha256="0" * 64)
     book.record_run(submission, grade(submission, key, desk.assignment))
 
@@ -101,6 +102,34 @@ def test_the_newest_release_counts_not_the_newest_grade(course, tmp_path, kit, d
     release_grades(course, "soccer-kick", who="test")
     run([*arguments, "--template", str(template)])
     assert not out.read_text(encoding="utf-8").endswith("jdoe,A,20\n")
+
+
+def test_points_that_are_not_final_leave_with_a_word_until_they_are_settled_and_released(
+    course, tmp_path, kit, desk_of_grading, capfd
+) -> None:
+    with Gradebook.open(course) as book:
+        pid = next(student.pid for student in book.students() if student.name == "Jane Doe")
+        mark(book, kit, desk_of_grading, 0, pid, {"e": "about 0.6"})
+    template = canvas_file(tmp_path, '"Doe, Jane",,jdoe,A,')
+    place, out = ["--course", str(course.folder)], tmp_path / "filled.csv"
+    arguments = ["export", "soccer-kick", "--to", "canvas", *place, "-o", str(out), "--template", str(template)]
+    release_grades(course, "soccer-kick", who="test")
+    assert run(arguments) == 1
+    said = capfd.readouterr().out
+    assert "open: up to 20 of 20, a person has to look" in said
+    assert "1 with open points" in said
+    assert "vml gradebook set PID soccer-kick QUESTION POINTS; then vml release soccer-kick" in said
+    assert run(["gradebook", "set", pid, "soccer-kick", "e", "2", "--reason", "read", *place]) == 0
+    capfd.readouterr()
+    run(arguments)
+    said = capfd.readouterr().out
+    assert "open" not in said
+    assert "1 grades have changed since the release" in said
+    release_grades(course, "soccer-kick", who="test")
+    run(arguments)
+    said = capfd.readouterr().out
+    assert "open" not in said
+    assert "changed" not in said
 
 
 def test_a_template_is_never_written_over(course, tmp_path) -> None:
