@@ -91,7 +91,7 @@ def parse_roster(name: str, text: str) -> tuple[Enrolled, ...]:
         raise RosterError(name, "the columns name,email", ", ".join(headings) or "an empty file")
     found = []
     for line, cells in rows:
-        if any(cells) and not _NOBODY.fullmatch(cells[0]):
+        if not _names_nobody(cells, columns):
             found.append(_student(f"{name}, line {line}", cells, columns, len(headings)))
     if not found:
         raise RosterError(name, "at least one student", "the columns only", "Write one line for each: name,email.")
@@ -128,7 +128,7 @@ def _columns(headings: Sequence[str], rows: Sequence[Sequence[str]]) -> dict[str
         at = next((k for k in range(len(words)) if _holds_addresses(rows, k)), None)
         if at is not None and at not in found.values():
             found["email"] = at
-    if {"name", "participant"} <= found.keys() and "section" in words:  # Canvas: its `ID` is the user's number
+    if "participant" in found and {"name", "last"} & found.keys() and "section" in words:  # Canvas: the user's number
         found["canvas_id"] = found.pop("participant")
     return found
 
@@ -139,6 +139,16 @@ def _holds_addresses(rows: Iterable[Sequence[str]], column: int) -> bool:
 
 
 # ---------------------------------------------------------------- one student
+
+
+def _names_nobody(cells: Sequence[str], columns: Mapping[str, int]) -> bool:
+    """Tell whether a row is empty, or one of those that Canvas writes beside students.
+
+    Its points possible and its test student are called so; "Manual Posting" and "(read only)" stand below assignments.
+    """
+    if not any(cells) or _NOBODY.fullmatch(cells[0]):
+        return True
+    return "canvas_id" in columns and not any(cells[at] for at in columns.values() if at < len(cells))
 
 
 def _student(where: str, cells: Sequence[str], columns: Mapping[str, int], width: int) -> Enrolled:

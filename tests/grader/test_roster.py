@@ -77,6 +77,20 @@ def test_the_list_of_every_platform_is_understood(text: str, expected: list[Enro
         assert list(parse_roster("list.csv", text)) == expected
 
 
+@pytest.mark.parametrize("order", [(0, 1, 2), (1, 0, 2), (2, 1, 0)])
+def test_rows_of_canvas_that_name_nobody_are_left_out_in_any_order(order: tuple[int, ...]) -> None:
+    head, possible, *students = CANVAS.splitlines()
+    rows = (possible, ",,,,,Manual Posting", ",,,,,(read only)")
+    assert parse_roster("c.csv", CANVAS) == parse_roster(
+        "c.csv", "\n".join([head, *(rows[k] for k in order), *students])
+    )
+
+
+def test_split_names_of_canvas_are_its_own_too() -> None:
+    text = "LastName,FirstName,ID,Section,Lab (1)\n,,,,Manual Posting\nPoints Possible,,,,10\nDoe,Jane,90210,A,\n"
+    assert parse_roster("c.csv", text) == (Enrolled("Jane Doe", "", {"canvas_id": "90210"}),)
+
+
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "cp1252"])
 def test_every_usual_encoding_is_understood(encoding: str) -> None:
     assert parse_roster("l.csv", decoded(MOODLE_PARTICIPANTS.encode(encoding)))[0].name == "Jürgen Müller"
