@@ -233,8 +233,8 @@ def _files(source: Path) -> tuple[int, Iterator[_File]]:
             meant = [info.filename for info in archive.infolist() if not info.is_dir() and _is_meant(info.filename)]
     except (zipfile.BadZipFile, OSError) as error:
         with source.open("rb") as file:
-            got = kind_of(file.read(4096))
-        got = "a damaged or incomplete zip" if got == "a zip archive" else got
+            head = file.read(4096)
+        got = "a damaged or incomplete zip" if head.startswith(b"PK") else kind_of(head)
         raise NoDownloadError(
             str(source), got, "Download the submissions from the platform and name that file."
         ) from error

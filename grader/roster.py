@@ -15,10 +15,14 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from grader.errors import RosterError
+from grader.read.sniff import TEXT_TABLE, UNKNOWN, kind_of
 from vml_course.errors import FileMissingError
 
 _LARGEST_BYTES = 5_000_000
 _LONGEST_CELL = 200
+
+_EXPECTED = "a class list, a table of comma-separated values"
+_SAVE_AS_CSV = "Export the list from the platform as CSV, or save it as CSV."
 
 STRONG = ("email", "sis_id", "login", "canvas_id", "moodle_participant")
 """Kinds of identity that belong to one person only; a name may belong to several."""
@@ -65,7 +69,11 @@ def read_roster(path: Path) -> tuple[Enrolled, ...]:
         raise FileMissingError(path.name, "a roster", "no such file", hint)
     if path.stat().st_size > _LARGEST_BYTES:
         raise RosterError(path.name, "a class list", "a file of several megabytes")
-    return parse_roster(path.name, decoded(path.read_bytes()))
+    data = path.read_bytes()
+    kind = kind_of(data)
+    if data and kind not in {TEXT_TABLE, UNKNOWN}:  # a list of names alone has no sign of its own
+        raise RosterError(path.name, _EXPECTED, kind, _SAVE_AS_CSV)
+    return parse_roster(path.name, decoded(data))
 
 
 def decoded(data: bytes) -> str:
@@ -104,12 +112,16 @@ def folded(text: str) -> str:
 
 
 def _table(name: str, text: str) -> tuple[list[str], list[tuple[int, list[str]]]]:
-    first = text.partition("\n")[0]
-    reader = csv.reader(io.StringIO(text), delimiter=max(",;\t", key=first.count))
+    if "\0" in text:
+        raise RosterError(name, _EXPECTED, "a file that is no text", _SAVE_AS_CSV)
+    first = next(iter(text.splitlines()), "")
+    lines = io.StringIO(text, newline="")  # any line end, that of old Macs too
+    reader = csv.reader(lines, delimiter=max(",;\t", key=first.count))
     try:
         rows = [(reader.line_num, [cell.strip() for cell in cells]) for cells in reader]
     except csv.Error as error:
-        raise RosterError(name, "a table of comma-separated values", str(error)) from error
+        got = f"something else in line {reader.line_num}"  # a cell without an end, mostly
+        raise RosterError(name, _EXPECTED, got, _SAVE_AS_CSV) from error
     return (rows[0][1], rows[1:]) if rows else ([], [])
 
 

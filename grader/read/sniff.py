@@ -42,13 +42,13 @@ def require_zip(data: bytes) -> None:
     raise _other(data)
 
 
-def kind_of(head: bytes) -> str:
-    """Return what a file is by its first kilobytes, in words: "a PDF document"."""
+def kind_of(data: bytes) -> str:
+    """Return what a file is, in words: "a PDF document"; but for documents that are a zip inside, its start is enough."""
     try:
-        require_zip(head)
+        require_zip(data)
     except RefusedError as error:
         return error.got
-    return "a zip archive"
+    return "a workbook or another document" if b"[Content_Types].xml" in data else "a zip archive"
 
 
 def _other(data: bytes) -> RefusedError:

@@ -105,6 +105,8 @@ def test_every_usual_encoding_is_understood(encoding: str) -> None:
         ("name,sid\nAnn,7\nBen,7\n", "expected each student once, got '7' twice"),
         ("name\nAnn\n ann \n", "expected each student once"),
         ("name,email\n,a@b.c\n", "expected a name, got only 'a@b.c'"),
+        ("name,email\nA\0nn,a@b.c\n", "got a file that is no text. Export the list"),
+        ('name,email\n"Ann' + "x" * 200_000, "got something else in line 2. Export the list"),
     ],
 )
 def test_a_mistake_in_the_list_is_one_line(text: str, words: str) -> None:
@@ -112,6 +114,27 @@ def test_a_mistake_in_the_list_is_one_line(text: str, words: str) -> None:
         parse_roster("list.csv", text)
     assert words in str(caught.value)
     assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("data", "got"),
+    [
+        (b"PK\x03\x04\n\r\x00 x", "a zip archive"),
+        (b"PK\x03\x04\n\r\x00 [Content_Types].xml", "a workbook or another document"),
+        (b"<html><table>", "a web page"),
+    ],
+)
+def test_what_is_no_class_list_is_called_by_what_it_is(tmp_path: Path, data: bytes, got: str) -> None:
+    (tmp_path / "list.csv").write_bytes(data)
+    with pytest.raises(
+        RosterError, match=f"^list.csv: expected a class list, .*, got {got}. Export the list .* as CSV"
+    ):
+        read_roster(tmp_path / "list.csv")
+
+
+@pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
+def test_lines_may_end_as_on_any_computer(end: str) -> None:
+    assert len(parse_roster("l.csv", end.join(["name;email", "Ann;a@x.org", "Ben;b@x.org", ""]))) == 2
 
 
 def test_two_people_of_one_name_are_two_when_anything_else_differs() -> None:
