@@ -43,7 +43,7 @@ def require_zip(data: bytes) -> None:
 
 
 def kind_of(data: bytes) -> str:
-    """Return what a file is, in words: "a PDF document"; but for documents that are a zip inside, its start is enough."""
+    """Return what a file is, in words: "a PDF document". Its start is enough, but for a workbook."""
     try:
         require_zip(data)
     except RefusedError as error:
