@@ -134,6 +134,9 @@ def new_course(place: str | Path, title: str = "") -> Course:
     if shelf.exists(COURSE_FILE) or (home / SECRET_FILE).exists():
         found = COURSE_FILE if shelf.exists(COURSE_FILE) else SECRET_FILE
         raise CourseError(str(place), "a folder without a course", f"{found} in it", "Choose another folder.")
+    blocking = next((path for path in (home, *home.parents) if path.is_file()), None)
+    if blocking is not None:
+        raise CourseError(str(blocking), "a folder, or a name that is still free", "a file", "Choose another name.")
     home.mkdir(parents=True, exist_ok=True, mode=0o777 if _is_folder(shelf) else 0o700)
     write_secret(home / SECRET_FILE)
     _write_new(home / ".gitignore", _IGNORED)
