@@ -114,8 +114,12 @@ def test_workbooks_of_another_assignment_are_said_to_be_collected_for_that_one(t
     assert "expected a workbook of two-pucks, got one of soccer-kick." in said
     assert f"vml collect soccer-kick {download} --course {term.course.folder}\n" in said
     assert "--whose" not in said
+    assert waiting_files(term.course) == 1
     assert run(["collect", "soccer-kick", download, *at]) == 0
     assert "1 matched." in capsys.readouterr().out
+    assert run(["grade", *at]) == 0
+    assert waiting_files(term.course) == 0
+    assert run(["gradebook", "verify", *at]) == 0
 
 
 def test_each_file_that_waits_has_the_advice_of_its_own_reason(term, rebuilt, capsys) -> None:
