@@ -10,7 +10,6 @@ import hashlib
 import json
 import os
 import re
-import tomllib
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -22,6 +21,7 @@ from assignments.load import named_mistakes
 from assignments.locate import line_of
 from assignments.secret import SECRET_FILE, read_secret, write_secret
 from assignments.terms import Calendar, Extension
+from assignments.toml_text import TomlError, content_of, text_of
 from vml_course.errors import FileMissingError
 from vml_course.io.shelf import FolderShelf, Shelf, open_shelf
 
@@ -134,6 +134,9 @@ def new_course(place: str | Path, title: str = "") -> Course:
     if shelf.exists(COURSE_FILE) or (home / SECRET_FILE).exists():
         found = COURSE_FILE if shelf.exists(COURSE_FILE) else SECRET_FILE
         raise CourseError(str(place), "a folder without a course", f"{found} in it", "Choose another folder.")
+    blocking = next((path for path in (home, *home.parents) if path.is_file()), None)
+    if blocking is not None:
+        raise CourseError(str(blocking), "a folder, or a name that is still free", "a file", "Choose another name.")
     home.mkdir(parents=True, exist_ok=True, mode=0o777 if _is_folder(shelf) else 0o700)
     write_secret(home / SECRET_FILE)
     _write_new(home / ".gitignore", _IGNORED)
@@ -179,10 +182,10 @@ def add_extension(course: Course, given: Extension) -> Course:
         "reason": given.reason,
     }
     lines = (f"{name} = {json.dumps(value, ensure_ascii=False)}" for name, value in fields.items() if value)
-    old = course.shelf.read(COURSE_FILE).decode("utf-8")
-    text = old.rstrip("\n") + "\n\n[[extension]]\n" + "\n".join(lines) + "\n"
-    settings = _understood(text, course.shelf.place(COURSE_FILE))
-    course.shelf.write(COURSE_FILE, text.encode())
+    old = course.shelf.read(COURSE_FILE)
+    new = old.rstrip(b"\n") + ("\n\n[[extension]]\n" + "\n".join(lines) + "\n").encode()
+    settings = _understood(new, course.shelf.place(COURSE_FILE))
+    course.shelf.write(COURSE_FILE, new)
     return replace(course, calendar=settings.calendar())
 
 
@@ -208,21 +211,21 @@ def _is_folder(shelf: Shelf) -> bool:
 
 def _settings(shelf: Shelf, place: str | Path) -> CourseFile:
     try:
-        text = shelf.read(COURSE_FILE).decode("utf-8")
+        data = shelf.read(COURSE_FILE)
     except FileMissingError:
         hint = f"Make one with: vml course new {place}"
         raise CourseError(str(place), f"a course folder with {COURSE_FILE}", "none", hint) from None
-    except UnicodeDecodeError as error:
-        raise CourseError(shelf.place(COURSE_FILE), "TOML in UTF-8", error) from error
-    return _understood(text, shelf.place(COURSE_FILE))
+    return _understood(data, shelf.place(COURSE_FILE))
 
 
-def _understood(text: str, path: str) -> CourseFile:
+def _understood(data: bytes, path: str) -> CourseFile:
     try:
-        content = tomllib.loads(text)
+        text = text_of(data, path)
+        content = content_of(text, path)
+    except TomlError as error:
+        raise CourseError(error.name, error.expected, error.got, error.hint) from error
+    try:
         return CourseFile.model_validate(content)
-    except tomllib.TOMLDecodeError as error:
-        raise CourseError(path, "TOML in UTF-8", error) from error
     except ValidationError as error:
         first, *others = sorted(
             ((line_of(text, found.name, str(found.got)), found) for found in named_mistakes(error, content)),

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import importlib.resources
-import tomllib
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +12,7 @@ from assignments.errors import AssignmentFileError
 from assignments.model import Assignment
 from assignments.resolve import mistakes_in
 from assignments.schema import AssignmentFile
+from assignments.toml_text import TomlError, content_of, shown, text_of
 from vml_course.errors import InputError, UnknownNameError
 
 FILE = "assignment.toml"
@@ -86,12 +86,12 @@ def load_folder(folder: Path) -> Assignment:
     """
     place = f"{folder.name}/{FILE}"
     try:
-        content = tomllib.loads((folder / FILE).read_text(encoding="utf-8"))
+        content = content_of(text_of((folder / FILE).read_bytes(), "file"), "file")
         assignment = AssignmentFile.model_validate(content).record(folder)
     except FileNotFoundError:
         raise AssignmentFileError(place, [InputError("file", f"a file named {FILE}", "none")]) from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise AssignmentFileError(place, [InputError("file", "TOML in UTF-8", error)]) from error
+    except TomlError as error:
+        raise AssignmentFileError(place, [error]) from error
     except ValidationError as error:
         raise AssignmentFileError(place, named_mistakes(error, content)) from error
     mistakes = tuple(mistakes_in(assignment))
@@ -111,12 +111,12 @@ def named_mistakes(error: ValidationError, content: dict[str, Any]) -> list[Inpu
 def _mistake(kind: str, place: tuple[int | str, ...], message: str, got: Any, content: dict[str, Any]) -> InputError:
     key = _key(place, content)
     if kind == "extra_forbidden":
-        return InputError(key, "no such key", repr(got)[:60], "Is it misspelt?")
+        return InputError(key, "no such key", shown(got), "Is it misspelt?")
     if kind == "missing":
         return InputError(key, "a value", "none")
     if kind == "value_error":  # of a validator of ours: what was expected, in words
-        return InputError(key or "file", message.removeprefix("Value error, "), repr(got)[:60])
-    return InputError(key, _expectation(message), repr(got)[:60])
+        return InputError(key or "file", message.removeprefix("Value error, "), shown(got))
+    return InputError(key, _expectation(message), shown(got))
 
 
 def _expectation(message: str) -> str:

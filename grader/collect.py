@@ -16,19 +16,23 @@ from typing import Literal
 
 from assignments.course import Course
 from grader.enrolment import Student
-from grader.errors import CollectError, UnknownVariantError
+from grader.errors import CollectError, NoDownloadError, OtherAssignmentError, UnknownVariantError
 from grader.gradebook import Gradebook
 from grader.inbox import LARGEST_BYTES, keep
 from grader.lms import AUTO, recognise
 from grader.lms.named import Named
 from grader.read import ReadRequest, read_isolated
 from grader.read.locate import claims_of
+from grader.read.sniff import kind_of
 from grader.receipts import Arrived, handed_in_at
 from grader.signed import is_signed
 from vml_course.errors import FileMissingError, VmlError
 
 Status = Literal["matched", "unmatched", "duplicate", "conflict", "unreadable", "too large"]
 MOST_FILES = 20_000
+_PARTS_OF_DOCUMENTS = frozenset({"[Content_Types].xml", "mimetype"})
+"""What lies at the top of every zip that is one document: of Microsoft's programs, and of all others."""
+
 _NOT_MEANT = ("__MACOSX/", ".DS_Store", "Thumbs.db")
 
 
@@ -51,6 +55,8 @@ class Collected:
         Why, in one line.
     before : str
         Of a duplicate: what became of the same bytes when they came first.
+    belongs_to : str
+        The assignment whose workbook it is, where that is another than the one that is collected.
     """
 
     name: str
@@ -59,6 +65,7 @@ class Collected:
     platform: str = ""
     message: str = ""
     before: str = ""
+    belongs_to: str = ""
 
     @property
     def needs_attention(self) -> bool:
@@ -161,7 +168,8 @@ class _Desk:
             by_code = self._by_code(file)
         except VmlError as error:
             status: Status = "unreadable" if by_platform else "unmatched"
-            return Collected(file.name, status, by_platform, platform, str(error))
+            other = error.assignment if isinstance(error, OtherAssignmentError) else ""
+            return Collected(file.name, status, by_platform, platform, str(error), belongs_to=other)
         if by_platform and by_platform != by_code:
             message = f"The workbook is {by_code}'s, the platform says {by_platform}."
             return Collected(file.name, "conflict", by_platform, platform, message)
@@ -179,7 +187,7 @@ class _Desk:
         if not is_signed(self._course, key, claims):
             raise UnknownVariantError(name, claims.code)
         if key.assignment_id != self._assignment:
-            raise CollectError(name, f"a workbook of {self._assignment}", f"one of {key.assignment_id}")
+            raise OtherAssignmentError(name, self._assignment, key.assignment_id)
         return key.student
 
     def _arrived(self, result: Collected, sha256: str, named: Named | None) -> Arrived:
@@ -221,10 +229,27 @@ def _files(source: Path) -> tuple[int, Iterator[_File]]:
         raise FileMissingError(str(source), "a zip or a folder", "no such file")
     try:
         with zipfile.ZipFile(source) as archive:
+            _refuse_document(source, archive)
             meant = [info.filename for info in archive.infolist() if not info.is_dir() and _is_meant(info.filename)]
     except (zipfile.BadZipFile, OSError) as error:
-        raise CollectError(str(source), "a zip as the platform gives it, or a folder", str(error)) from error
+        with source.open("rb") as file:
+            head = file.read(4096)
+        got = "a damaged or incomplete zip" if head.startswith(b"PK") else kind_of(head)
+        raise NoDownloadError(
+            str(source), got, "Download the submissions from the platform and name that file."
+        ) from error
     return _counted(source, meant), _members(source, meant)
+
+
+def _refuse_document(source: Path, archive: zipfile.ZipFile) -> None:
+    """Refuse a workbook, or any other document that is a zip inside: its parts are no files that were handed in."""
+    names = frozenset(archive.namelist())
+    if _PARTS_OF_DOCUMENTS.isdisjoint(names):
+        return
+    is_workbook = any(name.startswith("xl/") for name in names) or source.suffix.lower() == ".ods"
+    if is_workbook:
+        raise NoDownloadError(str(source), "a workbook", f"Grade it by itself: vml grade {source} --course COURSE.")
+    raise NoDownloadError(str(source), "a document", "Name the zip or the folder that it came in.")
 
 
 def _counted(source: Path, names: list[str]) -> int:

@@ -28,6 +28,22 @@ class CollectError(InputError):
     """A download, or a file in it, is not what was meant."""
 
 
+class NoDownloadError(CollectError):
+    """What should be a platform's download is something else."""
+
+    def __init__(self, source: str, got: str, hint: str) -> None:
+        super().__init__(source, "a zip as the platform gives it, or a folder", got, hint)
+
+
+class OtherAssignmentError(CollectError):
+    """A workbook in a download belongs to another assignment, `assignment`, than the one that is collected."""
+
+    def __init__(self, name: str, wanted: str, assignment: str) -> None:
+        self.assignment = assignment
+        hint = f"Collect it for that one: vml collect {assignment}."
+        super().__init__(name, f"a workbook of {wanted}", f"one of {assignment}", hint)
+
+
 class NothingGradedError(InputError):
     """There is no grade to release or to export."""
 

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from grader._options import CourseOption, JsonOption, print_json, the_course
+from grader.exports import export_names
 from grader.grading_commands import AssignmentArgument
 
 if TYPE_CHECKING:
@@ -35,7 +36,7 @@ def export(
     course: CourseOption,
     to: Annotated[
         str,
-        typer.Option("--to", metavar="PLATFORM", help="canvas, moodle, moodle-feedback, blackboard, csv, gradescope."),
+        typer.Option("--to", metavar="PLATFORM", help=f"One of {', '.join(export_names())}."),
     ],
     template: Annotated[
         Path | None, typer.Option(metavar="FILE", help="The platform's own export, which is filled; it stays as it is.")

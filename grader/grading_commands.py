@@ -5,7 +5,7 @@ from __future__ import annotations
 import datetime as dt
 import getpass
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -18,6 +18,7 @@ from vml_course.errors import InputError
 
 if TYPE_CHECKING:
     from assignments.course import Course
+    from grader.collect import Collected
     from grader.grading import Graded
     from grader.releasing import Change
 
@@ -70,13 +71,22 @@ def collect(
                 typer.echo(f"{'':10}{item.message}")
         counts = Counter(item.status for item in found)
         typer.echo(", ".join(f"{number} {status}" for status, number in counts.items()) + ".")
-        if counts.keys() & {"unmatched", "unreadable", "conflict"}:
-            typer.echo(
-                f"Say whose a workbook is: vml grade FILE --whose STUDENT --assignment {assignment} --course {course}"
-            )
+        for advice in _what_settles(
+            found, f"--assignment {assignment} --course {course}", f"{download} --course {course}"
+        ):
+            typer.echo(advice)
         typer.echo("Nothing was kept (--dry-run)." if dry_run else f"Next: vml grade --course {course}")
     if any(item.needs_attention for item in found):
         raise typer.Exit(1)
+
+
+def _what_settles(found: Iterable[Collected], to_say: str, to_collect: str) -> Iterator[str]:
+    """Yield what to do about files that nobody can grade: each advice once, where a file's reason asks for it."""
+    waiting = [item for item in found if item.status in {"unmatched", "unreadable", "conflict"}]
+    for other in dict.fromkeys(item.belongs_to for item in waiting if item.belongs_to):
+        yield f"Workbooks of {other} are collected for it: vml collect {other} {to_collect}"
+    if any(not item.belongs_to for item in waiting):
+        yield f"Say whose a workbook is: vml grade FILE --whose STUDENT {to_say}"
 
 
 def grade(

@@ -150,7 +150,8 @@ def settle_receipt(
     """Write what became of a file; what was graded is known to be its student's.
 
     Once it is graded because a person said whose it is, nobody has to look any more at other arrivals of the same
-    bytes: whom a platform named, and what a person said before.
+    bytes: whom a platform named, and what a person said before. Where the workbook said it, nobody has to look at what
+    was collected for another assignment by mistake.
     """
     table = tables.receipt
     told: dict[str, object] = {"status": status, "reason": reason}
@@ -165,11 +166,13 @@ def settle_receipt(
 def _settle_others(connection: Connection, graded: int) -> None:
     table = tables.receipt
     one = connection.execute(select(table).where(table.c.id == graded)).mappings().one()
-    if not one["told_by"]:
-        return
-    same = (table.c.file_sha256 == one["file_sha256"]) & (table.c.assignment == one["assignment"])
-    refused = (table.c.status == "unreadable") & (table.c.told_by != "")
-    others = connection.scalars(select(table.c.id).where(same & ((table.c.status == "conflict") | refused))).all()
+    same = table.c.file_sha256 == one["file_sha256"]
+    if one["told_by"]:
+        refused = (table.c.status == "unreadable") & (table.c.told_by != "")
+        same &= (table.c.assignment == one["assignment"]) & ((table.c.status == "conflict") | refused)
+    else:
+        same &= table.c.assignment.not_in(["", one["assignment"]]) & table.c.status.in_(WAITING)
+    others = connection.scalars(select(table.c.id).where(same)).all()
     if others:
         connection.execute(update(table).where(table.c.id.in_(others)).values(status="settled"))
         note(connection, "settled", one["file_sha256"], {"receipts": list(others), "who": one["told_by"]})

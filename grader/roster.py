@@ -15,10 +15,14 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from grader.errors import RosterError
+from grader.read.sniff import TEXT_TABLE, UNKNOWN, kind_of
 from vml_course.errors import FileMissingError
 
 _LARGEST_BYTES = 5_000_000
 _LONGEST_CELL = 200
+
+_EXPECTED = "a class list, a table of comma-separated values"
+_SAVE_AS_CSV = "Export the list from the platform as CSV, or save it as CSV."
 
 STRONG = ("email", "sis_id", "login", "canvas_id", "moodle_participant")
 """Kinds of identity that belong to one person only; a name may belong to several."""
@@ -65,7 +69,11 @@ def read_roster(path: Path) -> tuple[Enrolled, ...]:
         raise FileMissingError(path.name, "a roster", "no such file", hint)
     if path.stat().st_size > _LARGEST_BYTES:
         raise RosterError(path.name, "a class list", "a file of several megabytes")
-    return parse_roster(path.name, decoded(path.read_bytes()))
+    data = path.read_bytes()
+    kind = kind_of(data)
+    if data and kind not in {TEXT_TABLE, UNKNOWN}:  # a list of names alone has no sign of its own
+        raise RosterError(path.name, _EXPECTED, kind, _SAVE_AS_CSV)
+    return parse_roster(path.name, decoded(data))
 
 
 def decoded(data: bytes) -> str:
@@ -91,7 +99,7 @@ def parse_roster(name: str, text: str) -> tuple[Enrolled, ...]:
         raise RosterError(name, "the columns name,email", ", ".join(headings) or "an empty file")
     found = []
     for line, cells in rows:
-        if any(cells) and not _NOBODY.fullmatch(cells[0]):
+        if not _names_nobody(cells, columns):
             found.append(_student(f"{name}, line {line}", cells, columns, len(headings)))
     if not found:
         raise RosterError(name, "at least one student", "the columns only", "Write one line for each: name,email.")
@@ -104,12 +112,16 @@ def folded(text: str) -> str:
 
 
 def _table(name: str, text: str) -> tuple[list[str], list[tuple[int, list[str]]]]:
-    first = text.partition("\n")[0]
-    reader = csv.reader(io.StringIO(text), delimiter=max(",;\t", key=first.count))
+    if "\0" in text:
+        raise RosterError(name, _EXPECTED, "a file that is no text", _SAVE_AS_CSV)
+    first = next(iter(text.splitlines()), "")
+    lines = io.StringIO(text, newline="")  # any line end, that of old Macs too
+    reader = csv.reader(lines, delimiter=max(",;\t", key=first.count))
     try:
         rows = [(reader.line_num, [cell.strip() for cell in cells]) for cells in reader]
     except csv.Error as error:
-        raise RosterError(name, "a table of comma-separated values", str(error)) from error
+        got = f"something else in line {reader.line_num}"  # a cell without an end, mostly
+        raise RosterError(name, _EXPECTED, got, _SAVE_AS_CSV) from error
     return (rows[0][1], rows[1:]) if rows else ([], [])
 
 
@@ -128,7 +140,7 @@ def _columns(headings: Sequence[str], rows: Sequence[Sequence[str]]) -> dict[str
         at = next((k for k in range(len(words)) if _holds_addresses(rows, k)), None)
         if at is not None and at not in found.values():
             found["email"] = at
-    if {"name", "participant"} <= found.keys() and "section" in words:  # Canvas: its `ID` is the user's number
+    if "participant" in found and {"name", "last"} & found.keys() and "section" in words:  # Canvas: the user's number
         found["canvas_id"] = found.pop("participant")
     return found
 
@@ -139,6 +151,16 @@ def _holds_addresses(rows: Iterable[Sequence[str]], column: int) -> bool:
 
 
 # ---------------------------------------------------------------- one student
+
+
+def _names_nobody(cells: Sequence[str], columns: Mapping[str, int]) -> bool:
+    """Tell whether a row is empty, or one of those that Canvas writes beside students.
+
+    Its points possible and its test student are called so; "Manual Posting" and "(read only)" stand below assignments.
+    """
+    if not any(cells) or _NOBODY.fullmatch(cells[0]):
+        return True
+    return "canvas_id" in columns and not any(cells[at] for at in columns.values() if at < len(cells))
 
 
 def _student(where: str, cells: Sequence[str], columns: Mapping[str, int], width: int) -> Enrolled:

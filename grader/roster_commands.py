@@ -31,9 +31,11 @@ def import_(
 
     Example: vml roster import 2026-10-01_Grades-DYN.csv --course dynamics-2026
     """
+    from grader.page import counted
     from grader.rostering import import_roster
 
-    arrivals = import_roster(the_course(course), file, dry_run=dry_run)
+    imported = import_roster(the_course(course), file, dry_run=dry_run)
+    arrivals = imported.arrivals
     if as_json:
         print_json([{"status": one.status, **asdict(one.student)} for one in arrivals])
         return
@@ -50,6 +52,11 @@ def import_(
         typer.echo("Linked by name alone: have a look. If one of them is somebody else, give both an e-mail address.")
     if counts["not listed"]:
         typer.echo("Who is not listed stays, with grades. To leave them out: vml roster drop PID.")
+    if imported.had_sample:
+        typer.echo(f"The sample list in roster.csv {'would be' if dry_run else 'was'} put away.")
+    if imported.own_students:
+        own = counted(imported.own_students, "student")
+        typer.echo(f"In the course as well: {own} of roster.csv. To leave somebody out: vml roster drop PID.")
     if dry_run:
         typer.echo("Nothing was changed (--dry-run).")
 

@@ -2,27 +2,58 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 
 from assignments.course import Course, has_sample_roster
 from grader.enrolment import DROPPED, Arrival, Student
 from grader.gradebook import Gradebook
 from grader.roster import read_roster
+from vml_course.errors import InputError
 
 
-def import_roster(course: Course, file: Path, *, dry_run: bool = False) -> tuple[Arrival, ...]:
-    """Take in a class list; with `dry_run` only tell what would become of each line.
+@dataclass(frozen=True)
+class Imported:
+    """What became of a class list, and of the `roster.csv` that lay in the course.
+
+    Attributes
+    ----------
+    arrivals : tuple of Arrival
+        One for each line, and for each student who is not on the list.
+    had_sample : bool
+        Whether `roster.csv` was the sample that a new course begins with; its students are nobody's.
+    own_students : int
+        How many stand in a `roster.csv` of one's own, which goes on being read beside the class list.
+    """
+
+    arrivals: tuple[Arrival, ...]
+    had_sample: bool
+    own_students: int
+
+
+def import_roster(course: Course, file: Path, *, dry_run: bool = False) -> Imported:
+    """Take in a class list, and put the sample list away; with `dry_run` only tell what would become of each line.
 
     Raises
     ------
     FileMissingError, RosterError
     """
     people = read_roster(file)
+    is_another = file.resolve() != course.roster.resolve()
+    had_sample = is_another and has_sample_roster(course)
     with Gradebook.open(course) as book:
         arrivals = book.take_in(people, file.name, dry_run=dry_run)
-    if not dry_run and has_sample_roster(course) and file.resolve() != course.roster.resolve():
-        course.roster.unlink()  # the sample's three students are nobody's
-    return arrivals
+    if had_sample and not dry_run:
+        course.roster.unlink()
+    return Imported(arrivals, had_sample, _students_in(course.roster) if is_another and not had_sample else 0)
+
+
+def _students_in(roster: Path) -> int:
+    """Count the students of a list, 0 where it is none: whoever needs it says why."""
+    try:
+        return len(read_roster(roster))
+    except InputError:
+        return 0
 
 
 def roster_of(course: Course) -> tuple[Student, ...]:

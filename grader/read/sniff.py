@@ -5,6 +5,7 @@ from __future__ import annotations
 from grader.read.errors import OUR_TEMPLATE, SAVE_AS, UNPACKED, RefusedError
 from grader.read.limits import FILE_BYTES
 
+TEXT_TABLE, UNKNOWN = "a text table (CSV)", "a file of unknown kind"
 _OLE = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1"
 _SIGNATURES = (
     (b"%PDF", "a PDF document", OUR_TEMPLATE),
@@ -41,6 +42,15 @@ def require_zip(data: bytes) -> None:
     raise _other(data)
 
 
+def kind_of(data: bytes) -> str:
+    """Return what a file is, in words: "a PDF document". Its start is enough, but for a workbook."""
+    try:
+        require_zip(data)
+    except RefusedError as error:
+        return error.got
+    return "a workbook or another document" if b"[Content_Types].xml" in data else "a zip archive"
+
+
 def _other(data: bytes) -> RefusedError:
     if data.startswith(_OLE):
         return _ole(data)
@@ -72,7 +82,7 @@ def _text(data: bytes) -> RefusedError:
     if start.startswith(b"<?xml"):
         return RefusedError("an XML file", SAVE_AS)
     if b"\0" in head and not head.startswith((b"\xff\xfe", b"\xfe\xff")):
-        return RefusedError("a file of unknown kind", SAVE_AS)
+        return RefusedError(UNKNOWN, SAVE_AS)
     if any(mark in head for mark in (b",", b";", b"\t")):
-        return RefusedError("a text table (CSV)", SAVE_AS)
-    return RefusedError("a file of unknown kind", SAVE_AS)
+        return RefusedError(TEXT_TABLE, SAVE_AS)
+    return RefusedError(UNKNOWN, SAVE_AS)

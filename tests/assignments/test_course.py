@@ -74,6 +74,15 @@ def test_a_second_course_in_the_same_folder_is_refused_and_the_secret_stays(tmp_
     assert open_course(course.folder).secret == course.secret
 
 
+@pytest.mark.parametrize("place", ["grades.csv", "grades.csv/deeper"])
+def test_a_file_where_the_folder_should_be_is_called_one_and_stays(tmp_path: Path, capsys, place: str) -> None:
+    (tmp_path / "grades.csv").write_text("name\n", encoding="utf-8")
+    assert run(["course", "new", str(tmp_path / place)]) == 2
+    wanted = "expected a folder, or a name that is still free, got a file. Choose another name."
+    assert capsys.readouterr().err == f"{tmp_path / 'grades.csv'}: {wanted}\n"
+    assert (tmp_path / "grades.csv").read_text(encoding="utf-8") == "name\n"
+
+
 def test_the_roster_starts_with_three_students(tmp_path: Path) -> None:
     with new_course(tmp_path / "c").roster.open(encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))

@@ -9,11 +9,14 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from assignments.course import COURSE_FILE, add_extension, new_course, open_course
 from assignments.course_names import check_assignments
 from assignments.errors import CourseError
 from assignments.terms import Extension, Late, Terms
+from assignments.toml_text import TomlError, content_of
 
 FULL = """
 title = "Dynamik, Frühjahr"
@@ -87,8 +90,16 @@ def test_a_new_course_says_nothing_of_dates_and_shows_how(tmp_path: Path) -> Non
         ("[assignment.kick]\ncloses = 2027-05-01T00:00:00", "a due date beside late or closes"),
         (
             "[assignment.kick]\ndue = 2027-05-02T00:00:00\ncloses = 2027-05-01T00:00:00",
-            "opens before due, due before closes",
+            "opens before due, due before closes, got { due = 2027-05-02T00:00:00, closes = 2027-05-01T00:00:00 }.",
         ),
+        ("[assignment.kick]\ndone = 2027-05-02T23:59:00", "no such key, got 2027-05-02T23:59:00. Is it misspelt?"),
+        (
+            "[assignment.kick]\ndue 2027-05-02",
+            "got 'due 2027-05-02' at line 3. The reason: expected '=' after a key in a key/value pair (column 5).",
+        ),
+        ("[assignment.kick]\n[assignment.kick]", "at line 3. The reason: cannot declare assignment.kick twice"),
+        ("a = [1,\n\n", "got 'a = [1,' at line 2. The reason: invalid value."),
+        ('term = "Spring\n', "got 'term = \"Spring' at line 2. The reason: illegal end of the line (column 15)."),
         (
             '[assignment.kick]\ndue = 2027-05-02T00:00:00\nlate = { rule = "fixed" }',
             'a share above 0 for the rule "fixed"',
@@ -106,6 +117,32 @@ def test_a_mistake_is_one_line_with_its_key(tmp_path: Path, text: str, words: st
     assert words in str(caught.value)
     assert COURSE_FILE in str(caught.value)
     assert "\n" not in str(caught.value)
+
+
+def test_a_file_in_another_encoding_says_on_which_line_that_shows(tmp_path: Path) -> None:
+    _course(tmp_path, "")
+    (tmp_path / COURSE_FILE).write_bytes('title = "x"\nterm = "Frühjahr"\n'.encode("cp1252"))
+    with pytest.raises(CourseError, match=r"got other bytes at line 2\. Save the file with the encoding UTF-8\."):
+        open_course(tmp_path)
+
+
+def test_the_mark_that_windows_puts_before_a_text_is_no_mistake(tmp_path: Path) -> None:
+    _course(tmp_path, "\ufeff" + FULL)
+    course = add_extension(open_course(tmp_path), Extension("abc", "ill", attempts=1))
+    assert open_course(tmp_path).calendar == course.calendar
+
+
+@given(st.text(alphabet="a.=\"'[]{}\\ \n\r\u2028é1-", max_size=40))
+def test_any_text_is_toml_or_one_polite_line_of_the_file(text: str) -> None:
+    message = ""
+    try:
+        content_of(text, COURSE_FILE)
+    except TomlError as error:
+        message = str(error)
+    said = re.search(r"at line (\d+)\. The reason: ", message)
+    assert bool(said) == bool(message)
+    assert "\n" not in message
+    assert said is None or 1 <= int(said[1]) <= text.count("\n") + 1
 
 
 def test_an_extension_is_added_to_the_file_and_the_rest_stays(tmp_path: Path) -> None:

@@ -107,11 +107,80 @@ def test_a_conflict_that_is_settled_is_none_when_it_comes_again(term, copied) ->
     assert (again.status, again.before, again.needs_attention) == ("duplicate", "settled", False)
 
 
+def test_workbooks_of_another_assignment_are_said_to_be_collected_for_that_one(term, capsys) -> None:
+    download, at = str(term.download(**{"s_901_1_lab.xlsx": term.file(0)})), ["--course", str(term.course.folder)]
+    assert run(["collect", "two-pucks", download, *at]) == 1
+    said = capsys.readouterr().out
+    assert "expected a workbook of two-pucks, got one of soccer-kick." in said
+    assert f"vml collect soccer-kick {download} --course {term.course.folder}\n" in said
+    assert "--whose" not in said
+    assert waiting_files(term.course) == 1
+    assert run(["collect", "soccer-kick", download, *at]) == 0
+    assert "1 matched." in capsys.readouterr().out
+    assert run(["grade", *at]) == 0
+    assert waiting_files(term.course) == 0
+    assert run(["gradebook", "verify", *at]) == 0
+
+
+def test_each_file_that_waits_has_the_advice_of_its_own_reason(term, rebuilt, capsys) -> None:
+    download = str(term.download(**{"a.xlsx": term.file(0), "b.xlsx": rebuilt.read_bytes()}))
+    assert run(["collect", "two-pucks", download, "--course", str(term.course.folder)]) == 1
+    said = capsys.readouterr().out
+    assert "vml collect soccer-kick" in said
+    assert "vml grade FILE --whose STUDENT --assignment two-pucks" in said
+
+
+@pytest.mark.parametrize(
+    ("name", "parts", "got"),
+    [
+        ("my.xlsx", ("[Content_Types].xml", "xl/workbook.xml"), "a workbook. Grade it by itself: vml grade"),
+        ("my.zip", ("xl/workbook.xml", "[Content_Types].xml"), "a workbook. Grade it by itself: vml grade"),
+        ("my.ods", ("mimetype", "content.xml"), "a workbook. Grade it by itself: vml grade"),
+        ("my.docx", ("[Content_Types].xml", "word/document.xml"), "a document. Name the zip or the folder"),
+        ("my.odt", ("mimetype", "content.xml"), "a document. Name the zip or the folder"),
+    ],
+)
+def test_one_document_is_no_download_and_nothing_of_it_is_kept(term, capsys, name, parts, got) -> None:
+    path = term.download(**dict.fromkeys(parts, b"<x/>")).rename(term.course.folder / name)
+    assert run(["collect", "soccer-kick", str(path), "--course", str(term.course.folder)]) == 2
+    said = capsys.readouterr().err
+    assert said.startswith(f"{path}: expected a zip as the platform gives it, or a folder, got {got}")
+    assert said.count("\n") == 1
+    assert not (term.course.folder / "inbox").exists()
+    assert waiting_files(term.course) == 0
+
+
+def test_a_workbook_that_was_filled_in_is_graded_as_the_refusal_says(term, capsys) -> None:
+    path, at = term.course.folder / "my.xlsx", ["--course", str(term.course.folder)]
+    path.write_bytes(term.file(0))
+    assert run(["collect", "soccer-kick", str(path), *at]) == 2
+    assert f"vml grade {path}" in capsys.readouterr().err
+    assert run(["grade", str(path), *at]) == 0
+
+
+@pytest.mark.parametrize(
+    ("data", "got"),
+    [
+        (b"Student,ID\nAnn,1\n", "a text table (CSV)"),
+        (b"%PDF-1.7", "a PDF document"),
+        (b"PK\x03\x04 cut off", "a damaged or incomplete zip"),
+        (b"", "an empty file"),
+    ],
+)
+def test_what_is_no_zip_is_called_by_what_it_is(term, capsys, data, got) -> None:
+    path = term.course.folder / "grades.csv"
+    path.write_bytes(data)
+    assert run(["collect", "soccer-kick", str(path), "--course", str(term.course.folder)]) == 2
+    assert f"or a folder, got {got}. Download the submissions" in capsys.readouterr().err
+
+
 def test_at_the_prompt(term, rebuilt, capsys) -> None:
     at = ["--course", str(term.course.folder)]
     whose = ["--whose", term.pids[0], "--assignment", term.assignment.id]
     assert run(["collect", term.assignment.id, str(term.download(**{"x.xlsx": rebuilt.read_bytes()})), *at]) == 1
-    assert "vml grade FILE --whose STUDENT --assignment soccer-kick" in capsys.readouterr().out
+    said = capsys.readouterr().out
+    assert "vml grade FILE --whose STUDENT --assignment soccer-kick" in said
+    assert "are collected for it" not in said
     assert run(["grade", str(rebuilt), *at, *whose]) == 0
     assert term.pids[0] in capsys.readouterr().out
     assert run(["grade", *at, *whose]) == 2

@@ -32,6 +32,15 @@ def test_only_the_cells_that_are_meant_change(desk, swap) -> None:
     assert got.decode() == wanted
 
 
+def test_the_rows_above_the_students_stand_in_either_order(desk) -> None:
+    possible, *people = PEOPLE.splitlines(keepends=True)
+    posted, turned = ",,,,,Manual Posting,,\r\n", desk.run("canvas", CANVAS.encode()).decode()
+    lines = dict(desk.lines)
+    got = desk.run("canvas", ("\ufeff" + HEAD + possible + posted + "".join(people)).encode()).decode()
+    assert got == turned.replace(posted + possible, possible + posted)
+    assert desk.lines == lines
+
+
 def test_the_table_says_what_became_of_everybody(desk) -> None:
     desk.run("canvas", CANVAS.encode())
     said = {name: (line.status, line.points, line.reason) for name, line in desk.lines.items()}

@@ -6,6 +6,8 @@ import csv
 import json
 import os
 import stat
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -193,6 +195,15 @@ def test_platforms_are_found_by_name(course) -> None:
         export_grades(course, "soccer-kick", "canvas")
     with pytest.raises(InputError, match="--template: expected none for csv"):
         export_grades(course, "soccer-kick", "csv", Wish(course.roster))
+
+
+def test_the_help_names_every_platform_and_imports_none_of_them(capfd) -> None:
+    assert run(["export", "--help"]) == 0
+    said = " ".join(capfd.readouterr().out.replace("│", " ").split())
+    assert f"One of {', '.join(exports())}." in said
+    asked = "import sys, grader.export_commands; print([m for m in sys.modules if 'grader.' in m and 'export' in m])"
+    done = subprocess.run([sys.executable, "-c", asked], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "['grader.exports', 'grader.export_commands']"
 
 
 def test_the_autograder_needs_no_release_and_gives_nothing_away_in_the_shell(course, tmp_path, capfd) -> None:

@@ -113,6 +113,7 @@ def test_an_assignment_of_the_course_itself_is_packed(lab, autograder_course, tm
 
 
 def test_scripts_of_a_windows_checkout_get_unix_line_ends(lab, autograder_course, monkeypatch) -> None:
-    monkeypatch.setattr(Path, "read_bytes", lambda path: b"#!/usr/bin/env bash\r\nexit\r\n")
+    script, scripts, as_it_is = b"#!/usr/bin/env bash\r\nexit\r\n", {"setup.sh", "run_autograder"}, Path.read_bytes
+    monkeypatch.setattr(Path, "read_bytes", lambda path: script if path.name in scripts else as_it_is(path))
     names = dict(packed_files(lab.job_of(autograder_course)))
     assert names["setup.sh"] == names["run_autograder"] == b"#!/usr/bin/env bash\nexit\n"
