@@ -178,7 +178,14 @@ class _Desk:
                 f"The workbook is {by_code}'s, whose {named.kind} is another than {named.value}: who handed it in?"
             )
             return Collected(file.name, "conflict", "", platform, message)
-        return Collected(file.name, "matched", by_code, platform)
+        return Collected(file.name, "matched", by_code, platform, self._when(named))
+
+    def _when(self, named: Named | None) -> str:
+        """Say what is taken for the moment of a late file that has none."""
+        is_told = self._received is not None or (named is not None and named.received is not None)
+        if is_told or not (named and named.is_late) or self._course.calendar.terms_of(self._assignment).due is None:
+            return ""
+        return f"Late; {named.platform.capitalize()} does not say when: it counts as just late (--received says when)."
 
     def _by_code(self, file: _File) -> str:
         name = file.name.rpartition("/")[2]

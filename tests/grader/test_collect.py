@@ -9,13 +9,11 @@ from pathlib import Path
 
 import pytest
 
-from assignments.terms import Late, Terms
 from grader.collect import collect
 from grader.errors import CollectError, NothingGradedError
 from grader.grade import grade
 from grader.gradebook import Gradebook
 from grader.grading import Wanted, grade_again, grade_collected, grade_files
-from grader.receipts import handed_in_at
 from grader.releasing import release_grades, released_grades
 from grader.usecases import release
 from vml_course.cli import run
@@ -136,41 +134,11 @@ def test_a_changed_file_in_the_inbox_shows(term, capsys) -> None:
     assert "missing" in capsys.readouterr().out
 
 
-@pytest.mark.parametrize(
-    ("told", "is_late", "expected"),
-    [
-        (None, None, DUE),  # the platform does not say: in time
-        (None, False, DUE),
-        (None, True, DUE + dt.timedelta(minutes=15, seconds=1)),  # late, not said when: nobody pays for collecting late
-        (DUE + dt.timedelta(hours=1), None, DUE + dt.timedelta(hours=1)),
-        (DUE - dt.timedelta(hours=1), True, DUE - dt.timedelta(hours=1)),
-    ],
-)
-def test_when_something_was_handed_in(told, is_late, expected) -> None:
-    moment, terms = DUE + dt.timedelta(hours=5), Terms(due=DUE, late=Late(grace_minutes=15))
-    assert handed_in_at(terms, told, is_late=is_late, moment=moment) == expected
-    assert handed_in_at(Terms(), None, is_late=is_late, moment=moment) == moment
-
-
 LATE = """[assignment.soccer-kick]
 due = 2026-05-01T22:00:00Z
 closes = 2026-05-02T22:00:00Z
 late = { rule = "fixed", share = 0.5 }
 """
-
-
-def test_a_class_that_is_collected_later_is_not_late_but_what_blackboard_dates_is(term) -> None:
-    term.say(LATE)
-    files = {
-        "Lab_nobody_attempt_2026-05-01-23-00-00_lab.xlsx": term.file(0),
-        "Lab_nobody_attempt_2026-05-03-00-00-00_lab.xlsx": term.file(1),
-        "s_903_5_lab.xlsx": term.file(2),
-    }
-    collect(term.course, SLUG, term.download(**files))
-    graded = grade_collected(term.course, SLUG)
-    assert [_row(term, i).late_share for i in range(3)] == [0.5, 1.0, 0.0]
-    closed = next(item for item in graded if item.pid == term.pids[1])
-    assert "This attempt does not count" in closed.message
 
 
 def test_true_values_are_shown_when_nobody_can_hand_in_any_more(term) -> None:
@@ -185,17 +153,6 @@ def test_true_values_are_shown_when_nobody_can_hand_in_any_more(term) -> None:
     assert "True value" in Path(graded.feedback).read_text(encoding="utf-8")
     (graded,) = grade_files(term.course, [path], Wanted(show_truth=False))
     assert "True value" not in Path(graded.feedback).read_text(encoding="utf-8")
-
-
-def test_a_file_that_nobody_dates_counts_as_in_time_unless_somebody_says(term) -> None:
-    term.say(LATE)
-    path = term.course.folder / "w.xlsx"
-    path.write_bytes(term.file(0))
-    grade_files(term.course, [path], Wanted(received=DUE + dt.timedelta(hours=1)))
-    assert _row(term, 0).late_share == 0.5
-    path.write_bytes(term.file(1))
-    grade_files(term.course, [path])
-    assert _row(term, 1).late_share == 0.0
 
 
 # ---------------------------------------------------------------- release
