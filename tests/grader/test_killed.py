@@ -8,6 +8,7 @@ import random
 import signal
 import sys
 import time
+from multiprocessing.process import BaseProcess
 from multiprocessing.synchronize import Event
 from pathlib import Path
 
@@ -51,23 +52,30 @@ def _grade(folder: str, files: list[Path], again: int) -> None:
         grade_files(open_course(folder), files, Wanted())
 
 
-def _grade_and_say(folder: str, files: list[Path], begins: Event) -> None:
+def _grade_and_say(folder: str, files: list[Path], again: int, begins: Event) -> None:
     begins.set()
-    _grade(folder, files, 3)
+    _grade(folder, files, again)
+
+
+def _begun(course: Course, files: list[Path], again: int) -> BaseProcess:
+    """Return a grader that has just begun; it is forked where there are no threads, and imports this file first."""
+    processes = multiprocessing.get_context("forkserver")
+    processes.set_forkserver_preload(["pytest", "assignments.workbook", "grader.grading"])  # longer than grading takes
+    begins = processes.Event()
+    child = processes.Process(target=_grade_and_say, args=(str(course.folder), files, again, begins))
+    child.start()
+    assert begins.wait(120)
+    return child
 
 
 def test_a_grader_killed_at_random_moments_loses_nothing_and_leaves_no_half_grade(handed_in) -> None:
     course, files = handed_in
-    processes, chance = multiprocessing.get_context("forkserver"), random.Random(7)  # noqa: S311 - moments to kill at
-    processes.set_forkserver_preload(["pytest", "assignments.workbook", "grader.grading"])  # longer than grading takes
+    chance, once = random.Random(7), _begun(course, files, 1)  # noqa: S311 - moments to kill at
     started = time.monotonic()
-    _grade(str(course.folder), files, 1)
+    once.join()
     once_s, before = time.monotonic() - started, _runs(course)
     for _ in range(KILLS):
-        begins = processes.Event()
-        child = processes.Process(target=_grade_and_say, args=(str(course.folder), files, begins))
-        child.start()
-        begins.wait()  # it imports this file first
+        child = _begun(course, files, 3)
         time.sleep(chance.uniform(0.02, 1.5 * once_s))
         os.kill(child.pid, signal.SIGKILL)
         child.join()

@@ -125,13 +125,15 @@ def test_points_that_are_not_final_leave_with_a_word_until_they_are_settled_and_
     capfd.readouterr()
     run(arguments)
     said = capfd.readouterr().out
-    assert "open" not in said
+    assert "open:" not in said
+    assert "open points" not in said
     assert "1 grades have changed since the release" in said
     release_grades(course, "soccer-kick", who="test")
     run(arguments)
     said = capfd.readouterr().out
-    assert "open" not in said
-    assert "changed" not in said
+    assert "open:" not in said
+    assert "open points" not in said
+    assert "have changed" not in said
 
 
 def test_a_template_is_never_written_over(course, tmp_path) -> None:

@@ -12,6 +12,7 @@ import pytest
 from grader.read import ReadRequest, UnreadableError, read_workbook
 from grader.read.container import open_container
 from grader.read.errors import RefusedError
+from grader.read.sniff import kind_of
 
 TYPES = "[Content_Types].xml"
 
@@ -77,3 +78,17 @@ def test_a_part_that_would_lie_before_the_file_is_an_incomplete_upload():
     data = data[:-6] + directory_at + data[-2:] + behind
     with pytest.raises(RefusedError, match="incomplete upload"):
         open_container(data)
+
+
+@pytest.mark.parametrize(
+    ("data", "kind"),
+    [
+        (b"%PDF-1.7", "a PDF document"),
+        (b"a;b\n1;2\n", "a text table (CSV)"),
+        (b"PK\x03\x04 and so on", "a zip archive"),
+        (b"PK\x03\x04 [Content_Types].xml", "a workbook or another document"),
+        (b"PK\x03\x04 [content_types].xml", "a zip archive"),
+    ],
+)
+def test_what_a_file_is_has_a_name(data, kind):
+    assert kind_of(data) == kind
