@@ -10,6 +10,7 @@ from assignments.course import COURSE_FILE, Course
 from assignments.errors import CourseError
 from assignments.load import FILE, known_assignments
 from assignments.locate import line_of
+from assignments.toml_text import text_of
 
 
 def check_assignments(course: Course, arriving: str = "") -> None:
@@ -60,7 +61,7 @@ def unknown_students(course: Course, pids: Iterable[str]) -> tuple[CourseError, 
 
 
 def _text(course: Course) -> str:
-    return course.shelf.read(COURSE_FILE).decode("utf-8")
+    return text_of(course.shelf.read(COURSE_FILE), COURSE_FILE)
 
 
 def _stranger(line: int, section: str, what: str, known: Sequence[str], got: str, hint: str = "") -> CourseError:

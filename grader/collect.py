@@ -182,10 +182,14 @@ class _Desk:
 
     def _when(self, named: Named | None) -> str:
         """Say what is taken for the moment of a late file that has none."""
-        is_told = self._received is not None or (named is not None and named.received is not None)
-        if is_told or not (named and named.is_late) or self._course.calendar.terms_of(self._assignment).due is None:
+        is_dated = self._told(named) is not None or self._course.calendar.terms_of(self._assignment).due is None
+        if is_dated or not (named and named.is_late):
             return ""
         return f"Late; {named.platform.capitalize()} does not say when: it counts as just late (--received says when)."
+
+    def _told(self, named: Named | None) -> dt.datetime | None:
+        """Return when a file came, as the person who collects or the platform says."""
+        return self._received or (named.received if named else None)
 
     def _by_code(self, file: _File) -> str:
         name = file.name.rpartition("/")[2]
@@ -199,7 +203,7 @@ class _Desk:
 
     def _arrived(self, result: Collected, sha256: str, named: Named | None) -> Arrived:
         terms = self._course.calendar.terms_of(self._assignment, result.pid)
-        told = self._received or (named.received if named else None)
+        told = self._told(named)
         if told is not None and told.tzinfo is None:
             told = told.replace(tzinfo=self._course.calendar.zone)
         late = named.is_late if named else None

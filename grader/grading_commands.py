@@ -197,9 +197,10 @@ def release(
     from grader.usecases import release as release_now
     from grader.usecases import truth_note
 
+    opened = the_course(course)
     with resumable(), progress("writing pages") as show:
         changes = release_now(
-            the_course(course),
+            opened,
             assignment,
             who=getpass.getuser(),
             dry_run=dry_run,
@@ -216,7 +217,7 @@ def release(
     open_ = sum(change.is_provisional for change in changes)
     if open_:
         typer.echo(f"{open_} may still become fewer points: settle them first with vml gradebook set.")
-    if show_truth is None and (note := truth_note(the_course(course), assignment)):
+    if show_truth is None and (note := truth_note(opened, assignment)):
         typer.echo(note)
     typer.echo(
         "Nothing was released (--dry-run)." if dry_run else f"Next: vml export {assignment} --to csv --course {course}"

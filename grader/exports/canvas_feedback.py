@@ -26,10 +26,8 @@ def write(job: Job, path: Path) -> tuple[Line, ...]:
     files, lines = dict[str, bytes](), list[Line]()
     with Gradebook.open(job.course) as book:
         for student in job.students:
-            line, receipt = held_back(job, student, _WORKBOOK), _receipt(job, book, student)
-            why = _why_not(receipt)
-            if line is None:
-                line = Line(student.name, "skipped" if why else "filled", reason=why or "feedback", pid=student.pid)
+            receipt = _receipt(job, book, student)
+            line = held_back(job, student, _WORKBOOK) or _line(student, receipt)
             if receipt and line.status == "filled":
                 files[_name(student, receipt)] = job.course.shelf.read(feedback_name(job, student, _WORKBOOK))
             lines.append(line)
@@ -52,14 +50,14 @@ def _receipt(job: Job, book: Gradebook, student: Student) -> Receipt | None:
     return book.receipt_of(job.assignment.id, student.pid, grade.attempt, _PLATFORM) if grade else None
 
 
-def _why_not(receipt: Receipt | None) -> str:
-    """Return why Canvas cannot take a workbook back, "" when it can."""
+def _line(student: Student, receipt: Receipt | None) -> Line:
+    """Say whether Canvas can take a student's workbook back."""
+    why = ""
     if receipt is None or not _REFERENCE.fullmatch(receipt.arrived.lms_ref):
-        return "was not collected from a download of Canvas"
-    name = receipt.arrived.name
-    if not name.lower().endswith(_WORKBOOK):
-        return f"Canvas would show the workbook as {name!r}, which would not open"
-    return ""
+        why = "was not collected from a download of Canvas"
+    elif not receipt.arrived.name.lower().endswith(_WORKBOOK):
+        why = f"Canvas would show the workbook as {receipt.arrived.name!r}, which would not open"
+    return Line(student.name, "skipped" if why else "filled", reason=why or "feedback", pid=student.pid)
 
 
 def _name(student: Student, receipt: Receipt) -> str:
